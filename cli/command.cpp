@@ -1,0 +1,156 @@
+#include "command.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+
+#include "terminal.h"
+#include "welkin/map/convention.h"
+
+namespace welkin::cli {
+namespace {
+
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    parts.push_back(text.substr(from, comma - from));
+    from = comma + 1;
+  }
+  return parts;
+}
+
+io::Colour parse_colour(std::string_view option, const std::string& text) {
+  const std::vector<std::string> names{"auto", "linear", "srgb"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == text) return static_cast<io::Colour>(i);
+  }
+  throw UsageError(std::string(option) + ": " + unknown_name("transfer function", text, names));
+}
+
+}  // namespace
+
+std::vector<double> parse_numbers(std::string_view option, const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : split_list(text)) {
+    char* end = nullptr;
+    const double value = std::strtod(part.c_str(), &end);
+    if (part.empty() || *end != '\0' || !std::isfinite(value)) {
+      throw UsageError(fmt::format("{}: '{}' is not a number", option, part));
+    }
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+ChartSize parse_chart_size(std::string_view option, const std::string& text,
+                           const sphere::AnyParameterization& parameterization) {
+  const auto whole = [&](const std::string& part) {
+    char* end = nullptr;
+    const long value = std::strtol(part.c_str(), &end, 10);
+    if (part.empty() || *end != '\0' || value < 1 || value > (1 << 20)) {
+      throw UsageError(fmt::format("{}: '{}' is not a size: write N or WxH in texels, 1 to 1048576", option, text));
+    }
+    return static_cast<int>(value);
+  };
+  const std::size_t x = text.find('x');
+  if (x != std::string::npos) return {whole(text.substr(0, x)), whole(text.substr(x + 1))};
+  const int width = whole(text);
+  return {width, std::max(1, static_cast<int>(std::lround(width / parameterization.aspect())))};
+}
+
+Matrix3 parse_rotation(std::string_view option, const std::string& text) {
+  const std::vector<double> n = parse_numbers(option, text);
+  if (n.size() == 3) return rotation_from_yaw_pitch_roll(n[0], n[1], n[2]);
+  if (n.size() == 4) {
+    if (n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3] < 1e-12) {
+      throw UsageError(fmt::format("{}: the quaternion {} has no length", option, text));
+    }
+    return rotation_from_quaternion(n[0], n[1], n[2], n[3]);
+  }
+  if (n.size() == 9) {
+    const Matrix3 matrix{{{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}}};
+    if (!is_orthonormal(matrix)) {
+      throw UsageError(fmt::format("{}: the matrix is no rotation (its rows are not orthonormal)", option));
+    }
+    return orthonormalize(matrix);
+  }
+  throw UsageError(fmt::format("{}: give yaw,pitch,roll in degrees, a quaternion w,x,y,z or nine matrix entries", option));
+}
+
+void ReadFlags::add(CLI::App& command) {
+  command.add_option("--from", from, "Parameterization of the input: NAME[:LAYOUT][,PARAMETER=VALUE] (see `welkin list`). "
+                                     "Default: what the file declares, else a guess from its size");
+  command.add_option("--from-faces", faces, "Order and turns of the input's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
+  command.add_option("--from-convention", convention, "World of the input: three.js, blender… (`welkin list conventions`)");
+  command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb")->capture_default_str();
+  command.add_option("--channels", channels, "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
+  command.add_option("--part", part, "Which picture of a file with several (from 0)");
+}
+
+ReadMapOptions ReadFlags::parse() const {
+  ReadMapOptions options;
+  if (!from.empty()) {
+    parse_option("--from", [&] { return parse_map_shape(from); });
+    options.shape = from;
+  }
+  options.faces = faces;
+  if (!channels.empty()) options.channels = split_list(channels);
+  options.part = part;
+  options.image.colour = parse_colour("--colour", colour);
+  if (!convention.empty()) parse_option("--from-convention", [&] { return convention_from_name(convention); });
+  return options;
+}
+
+LoadedMap ReadFlags::read(const std::string& path) const {
+  ReadMapOptions options = parse();
+  if (!convention.empty()) {
+    const MapFileInfo info = inspect_map(path, options);
+    if (info.shape) {
+      options.orientation = orientation_for(convention_from_name(convention), info.shape->parameterization);
+    }
+  }
+  return read_map(path, options);
+}
+
+void WriteFlags::add(CLI::App& command) {
+  command.add_option("--to-faces", faces, "Order and turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
+  command.add_option("--type", type, "Stored values: uint8, uint16, uint32, half, float. Default: the format's best");
+  command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")->capture_default_str();
+  command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");
+  command.add_option("--quality", quality, "Quality of lossy formats")->check(CLI::Range(1, 100))->capture_default_str();
+}
+
+WriteMapOptions WriteFlags::parse() const {
+  WriteMapOptions options;
+  options.faces = faces;
+  options.image.colour = parse_colour("--to-colour", colour);
+  options.image.compression = compression;
+  options.image.quality = quality;
+  if (!type.empty()) {
+    std::vector<std::string> names;
+    for (const auto each : {io::PixelType::uint8, io::PixelType::uint16, io::PixelType::uint32, io::PixelType::half,
+                            io::PixelType::float32}) {
+      names.emplace_back(name_of(each));
+      if (names.back() == type) options.image.type = each;
+    }
+    if (!options.image.type) throw UsageError("--type: " + unknown_name("pixel type", type, names));
+  }
+  return options;
+}
+
+void report_losses(const std::string& path, const io::WriteReport& report) {
+  const auto warn = [&](std::uint64_t count, std::string_view what) {
+    if (count > 0) fmt::print(stderr, "welkin: {}: {} values {}\n", path, count, what);
+  };
+  warn(report.above, "were above what the file can hold, and clipped");
+  warn(report.below, "were negative, and are 0 in the file");
+  warn(report.not_finite, "were not finite, and are not in the file");
+}
+
+}  // namespace welkin::cli

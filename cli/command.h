@@ -1,0 +1,81 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
+#include "welkin/io/image_file.h"
+#include "welkin/map/map_file.h"
+
+/// What the subcommands share. Each is one file with one add_… function: it declares its options, and its callback parses
+/// them, calls the library and prints.
+namespace welkin::cli {
+
+/// A request that makes no sense, found before any work: exit status 2.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// parse(), with any Error it throws turned into a UsageError that names the option.
+template <class Parse>
+auto parse_option(std::string_view option, const Parse& parse) {
+  try {
+    return parse();
+  } catch (const Error& error) {
+    throw UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
+void add_info(CLI::App& app);
+void add_convert(CLI::App& app);
+void add_sample(CLI::App& app);
+void add_diff(CLI::App& app);
+void add_synth(CLI::App& app);
+void add_plot(CLI::App& app);
+void add_list(CLI::App& app);
+
+/// `1,2.5,-3`: numbers separated by commas. Throws UsageError, naming the option.
+std::vector<double> parse_numbers(std::string_view option, const std::string& text);
+
+/// Size of a chart from `N` (its width; the height follows from the aspect, at least 1) or `WxH`.
+ChartSize parse_chart_size(std::string_view option, const std::string& text,
+                           const sphere::AnyParameterization& parameterization);
+
+/// `yaw,pitch,roll` in degrees, `w,x,y,z` (quaternion) or nine numbers (matrix, row by row; orthonormal).
+Matrix3 parse_rotation(std::string_view option, const std::string& text);
+
+/// A bar on stderr for work that takes over a second, on a terminal or as `--progress` says.
+Monitor progress_monitor(std::string what);
+/// Ends the bar's line, if there is one.
+void end_progress();
+
+/// Options of every command that reads a map, with a prefix for commands that read two (`--from`, `--from-faces`…).
+struct ReadFlags {
+  std::string from, faces, convention, colour = "auto", channels;
+  std::size_t part = 0;
+
+  void add(CLI::App& command);
+  /// Throws UsageError.
+  ReadMapOptions parse() const;
+  /// The options, with the convention applied to the file's own parameterization.
+  LoadedMap read(const std::string& path) const;
+};
+
+/// Options of every command that writes a map.
+struct WriteFlags {
+  std::string faces, type, colour = "auto", compression;
+  int quality = 95;
+
+  void add(CLI::App& command);
+  /// Throws UsageError.
+  WriteMapOptions parse() const;
+};
+
+/// Warns on stderr of values that a format could not hold.
+void report_losses(const std::string& path, const io::WriteReport& report);
+
+}  // namespace welkin::cli

@@ -1,0 +1,62 @@
+#include <fmt/core.h>
+
+#include <functional>
+#include <map>
+
+#include "command.h"
+#include "welkin/map/convention.h"
+#include "welkin/map/resample.h"
+#include "welkin/synth/synth.h"
+
+namespace welkin::cli {
+namespace {
+
+void list_parameterizations() {
+  for (const std::string& name : sphere::parameterization_names()) fmt::print("{}\n", name);
+}
+
+void list_layouts() {
+  for (const std::string& name : sphere::parameterization_names()) {
+    for (const Layout& layout : layouts_of(sphere::AnyParameterization::make(name))) {
+      if (!layout.name.empty()) fmt::print("{}:{}\n", name, layout.name);
+    }
+  }
+}
+
+void list_parameters() {
+  for (const std::string& name : sphere::parameterization_names()) {
+    for (const auto& p : sphere::AnyParameterization::make(name).parameters()) {
+      fmt::print("{},{}=  {} ({:g} to {:g}, default {:g})\n", name, p.name, p.description, p.lowest, p.highest, p.value);
+    }
+  }
+}
+
+const std::map<std::string, std::function<void()>>& lists() {
+  static const std::map<std::string, std::function<void()>> all{
+      {"parameterizations", list_parameterizations},
+      {"layouts", list_layouts},
+      {"parameters", list_parameters},
+      {"conventions", [] { for (const auto& c : conventions()) fmt::print("{:<16} {}\n", c.name, c.description); }},
+      {"filters", [] { for (const char* name : {"auto", "nearest", "bilinear", "bicubic", "lanczos"}) fmt::print("{}\n", name); }},
+      {"formats", [] { for (const auto& name : io::writable_extensions()) fmt::print("{}\n", name); }},
+      {"maps", [] { for (const auto& name : synth::names()) fmt::print("{:<12} {}\n", name, synth::description(name)); }}};
+  return all;
+}
+
+}  // namespace
+
+void add_list(CLI::App& app) {
+  auto what = std::make_shared<std::string>("parameterizations");
+  CLI::App* command = app.add_subcommand("list", "Names that other commands take");
+  std::vector<std::string> names;
+  for (const auto& [name, print] : lists()) names.push_back(name);
+  command->add_option("WHAT", *what, "conventions, filters, formats, layouts, maps, parameterizations, parameters")
+      ->capture_default_str();
+  command->callback([what, names] {
+    const auto found = lists().find(*what);
+    if (found == lists().end()) throw UsageError(unknown_name("list", *what, names));
+    found->second();
+  });
+}
+
+}  // namespace welkin::cli

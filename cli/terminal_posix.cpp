@@ -1,0 +1,80 @@
+// The command line's POSIX-only code: signals, and whether stderr is a terminal.
+#include "terminal.h"
+
+#include <fmt/core.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include "command.h"
+#include "welkin/io/output_file.h"
+
+namespace welkin::cli {
+namespace {
+
+ProgressMode progress_mode = ProgressMode::automatic;
+std::atomic<bool> bar_shown{false};
+
+void end_process(int signal) {
+  io::remove_unfinished_outputs();
+  _exit(128 + signal);
+}
+
+/// One line, redrawn at most ten times a second.
+class Bar {
+ public:
+  explicit Bar(std::string what) : what_(std::move(what)) {}
+
+  void show(double fraction) {
+    using namespace std::chrono_literals;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - start_ < 1s && progress_mode != ProgressMode::always) return;
+    std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || (now - last_ < 100ms && fraction < 1)) return;
+    last_ = now;
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const int filled = static_cast<int>(fraction * 30);
+    fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3.0f} %", what_, "", filled, "", 30 - filled, 100 * fraction);
+    if (fraction > 0.02) fmt::print(stderr, ", {:.0f} s left ", seconds * (1 - fraction) / fraction);
+    std::fflush(stderr);
+    bar_shown = true;
+  }
+
+ private:
+  std::string what_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_{};
+};
+
+}  // namespace
+
+void set_progress_mode(ProgressMode mode) { progress_mode = mode; }
+
+void remove_outputs_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = end_process;
+  for (const int each : {SIGINT, SIGTERM, SIGHUP}) {
+    // A signal that the caller ignores (nohup) stays ignored.
+    struct sigaction before {};
+    sigaction(each, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(each, &action, nullptr);
+  }
+}
+
+Monitor progress_monitor(std::string what) {
+  const bool shown =
+      progress_mode == ProgressMode::always || (progress_mode == ProgressMode::automatic && isatty(STDERR_FILENO) != 0);
+  if (!shown) return {};
+  auto bar = std::make_shared<Bar>(std::move(what));
+  return {[bar](double fraction) { bar->show(fraction); }, nullptr};
+}
+
+void end_progress() {
+  if (bar_shown.exchange(false)) fmt::print(stderr, "\n");
+}
+
+}  // namespace welkin::cli

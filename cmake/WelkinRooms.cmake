@@ -1,0 +1,33 @@
+# A room is a folder of src/welkin: one object library, its tests beside its code.
+#
+#   welkin_room(NAME SOURCES … USES rooms… LINK libraries… TESTS …)
+#
+# Rooms link only upward (see docs/architecture.md); tests/rooms_test holds the includes to the same rule.
+
+function(welkin_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion)
+  if(WELKIN_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+function(welkin_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LINK;TESTS" ${ARGN})
+  add_library(welkin_${name} OBJECT ${ROOM_SOURCES})
+  target_compile_features(welkin_${name} PUBLIC cxx_std_20)
+  set_target_properties(welkin_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(welkin_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+  foreach(room IN LISTS ROOM_USES)
+    target_link_libraries(welkin_${name} PUBLIC welkin_${room})
+  endforeach()
+  target_link_libraries(welkin_${name} PRIVATE ${ROOM_LINK})
+  welkin_warnings(welkin_${name})
+  set_property(GLOBAL APPEND PROPERTY WELKIN_ROOMS ${name})
+  set_property(GLOBAL APPEND PROPERTY WELKIN_TEST_SOURCES ${ROOM_TESTS})
+  if(WELKIN_BUILD_TESTS AND ROOM_TESTS)
+    add_executable(welkin_${name}_test ${ROOM_TESTS})
+    target_link_libraries(welkin_${name}_test PRIVATE welkin ${ROOM_LINK} GTest::gtest_main)
+    welkin_warnings(welkin_${name}_test)
+    gtest_discover_tests(welkin_${name}_test DISCOVERY_TIMEOUT 60)
+  endif()
+endfunction()

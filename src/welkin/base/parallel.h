@@ -1,0 +1,35 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <functional>
+
+#include "welkin/base/error.h"
+
+namespace welkin {
+
+/// How long work reports back and can be stopped. Default: silent and never cancelled. Called from any thread.
+struct Monitor {
+  /// Told how much of the work is done, 0…1.
+  std::function<void(double fraction)> progress;
+  /// Asked now and then; true makes the work throw Cancelled within a few milliseconds.
+  std::function<bool()> cancelled;
+};
+
+/// body(i) for i in 0…count−1 on TBB's workers; `monitor` is told and asked after each.
+template <class Body>
+void parallel_for(int count, const Body& body, const Monitor& monitor = {}) {
+  std::atomic<int> done{0};
+  tbb::parallel_for(tbb::blocked_range<int>(0, count, 1), [&](const tbb::blocked_range<int>& range) {
+    for (int i = range.begin(); i != range.end(); ++i) {
+      if (monitor.cancelled && monitor.cancelled()) throw Cancelled();
+      body(i);
+      const int now = ++done;
+      if (monitor.progress) monitor.progress(static_cast<double>(now) / count);
+    }
+  });
+}
+
+}  // namespace welkin

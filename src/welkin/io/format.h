@@ -1,0 +1,40 @@
+#pragma once
+
+#include "welkin/io/image_file.h"
+#include "welkin/io/output_file.h"
+
+/// What one file format provides; formats.cpp lists them all. A new format is one file and one line there.
+namespace welkin::io {
+
+struct Source {
+  std::span<const std::byte> bytes;
+  std::string name;  ///< for messages
+  ReadOptions options;
+};
+
+struct Format {
+  std::string_view name;
+  std::vector<std::string> extensions;
+  bool (*matches)(std::span<const std::byte> bytes);  ///< by magic number
+  std::unique_ptr<Reader> (*open)(const Source& source);
+  /// Null when the format is read only. Throws Error without the file's name, which the caller adds.
+  WriteReport (*write)(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
+};
+
+/// All formats, in the order in which `matches` is asked.
+const std::vector<Format>& formats();
+
+// One per file of this room.
+Format exr_format();
+Format hdr_format();
+Format pfm_format();
+Format png_format();
+Format jpeg_format();
+Format tiff_format();
+Format webp_format();
+
+/// Throws Error when the decoded floats of width×height×channels would pass options.max_bytes or a side is not in
+/// 1…2^20. Call it before any allocation.
+void check_size(const Source& source, std::uint64_t width, std::uint64_t height, std::uint64_t channels);
+
+}  // namespace welkin::io

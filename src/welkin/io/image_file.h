@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "welkin/image/image.h"
+
+/// Bytes ↔ images. This room knows files and pixels; what a picture means on the sphere is decided in map/.
+namespace welkin::io {
+
+/// How one value of a pixel is stored in the file. In memory every value is a 32-bit float.
+enum class PixelType { uint8, uint16, uint32, half, float32 };
+
+/// `uint8`, `uint16`, `uint32`, `half`, `float`.
+std::string_view name_of(PixelType type);
+
+/// The transfer function of stored colour values. Linear is radiance; sRGB is IEC 61966-2-1, made linear on reading.
+/// Alpha is always linear.
+enum class Colour { automatic, linear, srgb };
+
+/// One picture of a file: the only one in most formats, one of many in a multi-part EXR or a multi-page TIFF.
+struct PartInfo {
+  std::string name;  ///< EXR part name; empty where the format has none
+  int width = 0;
+  int height = 0;
+  std::vector<std::string> channels;  ///< in the order that reading them all gives: R G B A first, then others
+  PixelType type = PixelType::float32;
+  std::string compression;  ///< `none`, `zip`, `rle`, `deflate`, `jpeg`…
+};
+
+/// What a file says of itself, known before any pixel is decoded.
+struct FileInfo {
+  std::string format;  ///< `exr`, `hdr`, `pfm`, `png`, `jpeg`, `tiff`, `webp`
+  std::vector<PartInfo> parts;
+  Colour colour = Colour::linear;  ///< the transfer function that reading will undo
+  std::map<std::string, std::string> attributes;  ///< text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
+  std::optional<std::string> envmap;  ///< EXR's standard `envmap` attribute: `latlong` or `cube`
+  std::vector<std::string> notes;     ///< what a person would like to know: tiles, data window, orientation…
+  std::uint64_t bytes = 0;
+};
+
+struct ReadOptions {
+  Colour colour = Colour::automatic;  ///< automatic: 8- and 16-bit integer formats are sRGB, all others linear
+  std::uint64_t max_bytes = std::uint64_t{32} << 30;  ///< refuse images whose decoded floats would need more
+};
+
+/// An open image file. Headers are parsed and checked (against ReadOptions::max_bytes and against the file's own
+/// length where the format allows) when it is opened; pixels are decoded by `read`.
+///
+/// Failures throw Error, `FILE: cause (byte offset or row where it helps)`.
+class Reader {
+ public:
+  virtual ~Reader() = default;
+
+  const FileInfo& info() const { return info_; }
+
+  /// Decodes the part's channels numbered `channels` (indices into PartInfo::channels, one per channel of `out`) into
+  /// `out`, which has the part's width and height and any row stride. Colour is linear afterwards. Non-finite and
+  /// negative values are kept. EXR data windows are placed inside the display window; texels outside it are 0.
+  /// Uses the calling thread and TBB's workers.
+  virtual void read(std::size_t part, std::span<const int> channels, ImageView<float> out) = 0;
+
+ protected:
+  FileInfo info_;
+};
+
+/// Opens a file by its first bytes, never by its name.
+std::unique_ptr<Reader> open(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// The same from memory, which must outlive the reader; `name` stands for the path in messages.
+std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name, const ReadOptions& options = {});
+
+/// A picture to be written, its channels named: `R G B`, `R G B A`, `Y`…
+struct WritePart {
+  std::string name;
+  ImageView<const float> image;
+  std::vector<std::string> channels;
+};
+
+struct WriteOptions {
+  std::optional<PixelType> type;         ///< default: the format's best (float for EXR, PFM, TIFF; uint16 for PNG…)
+  Colour colour = Colour::automatic;     ///< automatic: sRGB into integer formats, linear into float ones
+  std::string compression;               ///< empty: the format's default; `none`, `zip`, `zips`, `rle`, `piz`, `dwaa`…
+  int quality = 95;                      ///< of lossy formats, 1…100
+  std::map<std::string, std::string> attributes;  ///< text metadata, in formats that carry it
+  std::optional<std::string> envmap;     ///< EXR's standard `envmap` attribute
+};
+
+/// What writing lost, for the caller to report.
+struct WriteReport {
+  std::uint64_t above = 0;       ///< values over the format's largest, clipped
+  std::uint64_t below = 0;       ///< negative values in a format that has none, clipped to 0
+  std::uint64_t not_finite = 0;  ///< NaN or infinity in a format that has neither
+};
+
+/// Writes to a temporary file beside `path`, then renames it: on any failure nothing is left and an older file of
+/// that name stays. The format follows the name's extension. More than one part: EXR and TIFF only.
+WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts, const WriteOptions& options = {});
+
+/// Extensions that can be written, without dots: `exr hdr pfm png jpg jpeg tif tiff webp`.
+std::vector<std::string> writable_extensions();
+
+}  // namespace welkin::io

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace welkin::io {
+
+/// A file that appears under its name only when `commit` has succeeded. Until then the bytes are in a temporary file
+/// beside it, which the destructor removes, and which remove_unfinished_outputs removes from a signal handler.
+/// Writes that fail (full disk…) throw Error with the system's reason, without the file's name.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::filesystem::path& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(std::span<const std::byte> bytes);
+  void write(const void* data, std::size_t size);
+  /// Bytes at `offset` that were written before, for libraries that read back their own output.
+  std::size_t read_at(std::uint64_t offset, void* data, std::size_t size);
+  void seek(std::uint64_t offset);
+  std::uint64_t tell() const;
+  std::uint64_t size() const;
+
+  void commit();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A whole file, read-only, mapped into memory.
+class InputFile {
+ public:
+  explicit InputFile(const std::filesystem::path& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::span<const std::byte> bytes_;
+};
+
+/// Unlinks the temporary files of this process. Async-signal-safe.
+void remove_unfinished_outputs() noexcept;
+
+}  // namespace welkin::io

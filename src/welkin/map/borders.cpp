@@ -1,0 +1,248 @@
+#include "welkin/map/borders.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace welkin {
+namespace {
+
+using sphere::AnyParameterization;
+
+struct Texel {
+  int chart, x, y;
+};
+
+enum class Fill : std::uint8_t { exact, interpolated, unknown };
+
+/// Which texels of a row are places of the map.
+void valid_row(const AnyParameterization& p, const Level& level, int chart, int row, std::vector<float>& u,
+               std::vector<float>& v, std::vector<float>& mask) {
+  std::fill(v.begin(), v.end(), (static_cast<float>(row) + 0.5f) / static_cast<float>(level.height()));
+  p.kernels().valid(p.self(), chart, u.data(), v.data(), mask.data(), static_cast<std::size_t>(level.width()));
+}
+
+/// Texels of the charts that are not valid, but within kBorder (in both axes) of one that is.
+void collect_rim(const AnyParameterization& p, const Level& level, std::vector<Texel>& texels) {
+  const int width = level.width(), height = level.height();
+  const std::size_t capacity = sphere::padded(static_cast<std::size_t>(width));
+  std::vector<float> u(capacity, 0.5f), v(capacity), mask(capacity);
+  for (int x = 0; x < width; ++x) {
+    u[static_cast<std::size_t>(x)] = (static_cast<float>(x) + 0.5f) / static_cast<float>(width);
+  }
+  const std::size_t stride = static_cast<std::size_t>(width);
+  std::vector<std::uint8_t> valid(stride * static_cast<std::size_t>(height));
+  for (int chart = 0; chart < level.charts(); ++chart) {
+    bool all = true;
+    for (int y = 0; y < height; ++y) {
+      valid_row(p, level, chart, y, u, v, mask);
+      for (int x = 0; x < width; ++x) {
+        const bool is_valid = mask[static_cast<std::size_t>(x)] > 0;
+        valid[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] = is_valid;
+        all = all && is_valid;
+      }
+    }
+    if (all) continue;
+    const auto near = [&](int x, int y) {
+      for (int j = std::max(0, y - kBorder); j <= std::min(height - 1, y + kBorder); ++j) {
+        for (int i = std::max(0, x - kBorder); i <= std::min(width - 1, x + kBorder); ++i) {
+          if (valid[static_cast<std::size_t>(j) * stride + static_cast<std::size_t>(i)]) return true;
+        }
+      }
+      return false;
+    };
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (!valid[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] && near(x, y)) {
+          texels.push_back({chart, x, y});
+        }
+      }
+    }
+  }
+}
+
+void collect_borders(const Level& level, std::vector<Texel>& texels) {
+  const int width = level.width(), height = level.height();
+  for (int chart = 0; chart < level.charts(); ++chart) {
+    for (int y = -kBorder; y < height + kBorder; ++y) {
+      const bool inside = y >= 0 && y < height;
+      for (int x = -kBorder; x < width + kBorder; ++x) {
+        if (inside && x == 0) x = width;
+        texels.push_back({chart, x, y});
+      }
+    }
+  }
+}
+
+Vec3d direction_of(const AnyParameterization& p, const Level& level, const Texel& t) {
+  const double u = (t.x + 0.5) / level.width(), v = (t.y + 0.5) / level.height();
+  return p.to_sphere(t.chart, clamp(u, -1.0, 2.0), clamp(v, -1.0, 2.0));
+}
+
+/// Weights of Keys' cubic (a = −½) for texels −1, 0, 1, 2 of a fraction.
+void cubic_weights(double f, double* w) {
+  const double g = 1 - f;
+  w[0] = -0.5 * f * g * g;
+  w[1] = 1 + f * f * (1.5 * f - 2.5);
+  w[2] = 1 + g * g * (1.5 * g - 2.5);
+  w[3] = -0.5 * g * f * f;
+}
+
+/// First pass: only texels inside charts that are valid are read.
+Fill first_value(const AnyParameterization& p, const Level& level, const Texel& t, bool whole, float* out) {
+  const Vec3d d = direction_of(p, level, t);
+  if (!p.covers(d)) return Fill::unknown;
+  const auto place = p.from_sphere(d);
+  const int chart = static_cast<int>(place.chart);
+  const double x = place.u * level.width() - 0.5, y = place.v * level.height() - 0.5;
+  const double near_x = std::round(x), near_y = std::round(y);
+  const auto inside = [&](int i, int j) {
+    return i >= 0 && i < level.width() && j >= 0 && j < level.height() &&
+           (whole || p.valid(chart, (i + 0.5) / level.width(), (j + 0.5) / level.height()));
+  };
+  const ImageView<const float> source = level.chart(chart);
+  const double tolerance = 1e-6;
+  if (std::fabs(x - near_x) < tolerance && std::fabs(y - near_y) < tolerance &&
+      inside(static_cast<int>(near_x), static_cast<int>(near_y))) {
+    std::copy_n(source.at(static_cast<int>(near_x), static_cast<int>(near_y)), level.channels(), out);
+    return Fill::exact;
+  }
+  const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
+  const double fx = x - ix, fy = y - iy;
+  double total = 0;
+  double sum[kBorder * 16] = {};
+  const int channels = std::min<int>(level.channels(), std::size(sum));
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      const double weight = (i ? fx : 1 - fx) * (j ? fy : 1 - fy) + 1e-9;
+      if (!inside(ix + i, iy + j)) continue;
+      total += weight;
+      const float* texel = source.at(ix + i, iy + j);
+      for (int c = 0; c < channels; ++c) sum[c] += weight * static_cast<double>(texel[c]);
+    }
+  }
+  if (total <= 0) return Fill::unknown;
+  for (int c = 0; c < channels; ++c) out[c] = static_cast<float>(sum[c] / total);
+  return Fill::interpolated;
+}
+
+/// Second pass: the whole Catmull–Rom kernel, borders included, held to the range of the four nearest texels.
+void second_value(const AnyParameterization& p, const Level& level, const Texel& t, float* out) {
+  const auto place = p.from_sphere(direction_of(p, level, t));
+  const int chart = static_cast<int>(place.chart);
+  const double x = clamp(place.u * level.width() - 0.5, -1.0, static_cast<double>(level.width()));
+  const double y = clamp(place.v * level.height() - 0.5, -1.0, static_cast<double>(level.height()));
+  const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
+  double wx[4], wy[4];
+  cubic_weights(x - ix, wx);
+  cubic_weights(y - iy, wy);
+  const ImageView<const float> source = level.chart(chart);
+  for (int c = 0; c < level.channels(); ++c) {
+    double sum = 0;
+    float lowest = source.at(ix, iy)[c], highest = lowest;
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 4; ++i) {
+        const float value = source.at(ix + i - 1, iy + j - 1)[c];
+        sum += wx[i] * wy[j] * static_cast<double>(value);
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+      }
+    }
+    out[c] = clamp(static_cast<float>(sum), lowest, highest);
+  }
+}
+
+/// Texels without a value take the mean of their neighbours that have one, ring by ring.
+void spread(Level& level, std::vector<Texel> missing) {
+  const int channels = level.channels(), width = level.width(), height = level.height();
+  std::vector<std::uint8_t> unknown;
+  const std::ptrdiff_t stride = width + 2 * kBorder;
+  const auto index = [&](int chart, int x, int y) {
+    return static_cast<std::size_t>(((chart * (height + 2 * kBorder)) + y + kBorder) * stride + x + kBorder);
+  };
+  unknown.resize(index(level.charts() - 1, width + kBorder - 1, height + kBorder - 1) + 1);
+  for (const Texel& t : missing) unknown[index(t.chart, t.x, t.y)] = 1;
+  while (!missing.empty()) {
+    std::vector<Texel> later, now;
+    std::vector<float> values;
+    for (const Texel& t : missing) {
+      std::vector<double> sum(static_cast<std::size_t>(channels));
+      int count = 0;
+      for (int y = std::max(t.y - 1, -kBorder); y <= std::min(t.y + 1, height + kBorder - 1); ++y) {
+        for (int x = std::max(t.x - 1, -kBorder); x <= std::min(t.x + 1, width + kBorder - 1); ++x) {
+          if (unknown[index(t.chart, x, y)]) continue;
+          ++count;
+          for (int c = 0; c < channels; ++c) {
+            sum[static_cast<std::size_t>(c)] += static_cast<double>(level.chart(t.chart).at(x, y)[c]);
+          }
+        }
+      }
+      if (count == 0) {
+        later.push_back(t);
+        continue;
+      }
+      now.push_back(t);
+      for (int c = 0; c < channels; ++c) {
+        values.push_back(static_cast<float>(sum[static_cast<std::size_t>(c)] / count));
+      }
+    }
+    if (now.empty()) break;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const Texel& t = now[i];
+      std::copy_n(values.data() + i * static_cast<std::size_t>(channels), channels, level.chart(t.chart).at(t.x, t.y));
+      unknown[index(t.chart, t.x, t.y)] = 0;
+    }
+    missing = std::move(later);
+  }
+}
+
+}  // namespace
+
+void fill_borders(const AnyParameterization& p, Level& level) {
+  std::vector<Texel> texels;
+  // A chart that is valid in its corners and edge middles is valid everywhere: all discs and triangles fail here.
+  bool whole = true;
+  for (int chart = 0; chart < p.charts(); ++chart) {
+    for (double u : {1e-6, 0.5, 1 - 1e-6}) {
+      for (double v : {1e-6, 0.5, 1 - 1e-6}) whole = whole && p.valid(chart, u, v);
+    }
+  }
+  if (!whole) collect_rim(p, level, texels);
+  collect_borders(level, texels);
+
+  const std::size_t channels = static_cast<std::size_t>(level.channels());
+  std::vector<float> values(texels.size() * channels);
+  std::vector<Fill> fills(texels.size());
+  const auto for_all = [&](const auto& body) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels.size(), 1024), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+    });
+  };
+  const auto scatter = [&] {
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      if (fills[i] == Fill::unknown) continue;
+      std::copy_n(values.data() + i * channels, channels,
+                  level.chart(texels[i].chart).at(texels[i].x, texels[i].y));
+    }
+  };
+  for_all([&](std::size_t i) { fills[i] = first_value(p, level, texels[i], whole, values.data() + i * channels); });
+  scatter();
+  std::vector<Texel> missing;
+  bool any_interpolated = false;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (fills[i] == Fill::unknown) missing.push_back(texels[i]);
+    if (fills[i] == Fill::interpolated) any_interpolated = true;
+  }
+  spread(level, std::move(missing));
+  if (!any_interpolated) return;
+  for_all([&](std::size_t i) {
+    if (fills[i] == Fill::interpolated) second_value(p, level, texels[i], values.data() + i * channels);
+  });
+  scatter();
+}
+
+}  // namespace welkin

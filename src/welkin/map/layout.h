@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "welkin/map/map.h"
+
+/// Layouts: how the charts of a map lie in a picture, or in several.
+namespace welkin {
+
+/// One chart in the grid of a layout: mirrored left to right first, if so, then turned clockwise by quarter turns.
+struct LayoutCell {
+  int chart = 0;
+  int column = 0;
+  int row = 0;
+  int quarter_turns = 0;
+  bool mirrored = false;
+};
+
+enum class LayoutKind {
+  picture,  ///< one picture with all charts in a grid of equal cells
+  files,    ///< a picture per chart, `%s` in the file's name standing for the chart's name
+  layers,   ///< a part (EXR) or page (TIFF) per chart, as the parameterization has it: not mirrored, not turned
+};
+
+struct Layout {
+  std::string name;  ///< `hcross`; empty for the single picture of a single chart
+  LayoutKind kind = LayoutKind::picture;
+  int columns = 1;
+  int rows = 1;
+  std::vector<LayoutCell> cells;  ///< one per chart
+};
+
+/// The layouts of a parameterization, its default first. Crosses, strips and face files are pictures seen from inside, never
+/// mirrored; native cube faces are (docs/conventions.md).
+const std::vector<Layout>& layouts_of(const sphere::AnyParameterization& parameterization);
+
+/// Names of the charts in file names and `--faces`: px nx py ny pz nz for cubes, else 0, 1, 2….
+std::vector<std::string> chart_names(const sphere::AnyParameterization& parameterization);
+
+/// A parameterization and a layout, as written on the command line: `cube:hcross`, `fisheye-equidistant,fov=200`.
+struct MapShape {
+  sphere::AnyParameterization parameterization;
+  Layout layout;
+
+  std::string text() const;
+};
+
+/// Parses NAME[:LAYOUT][,PARAMETER=VALUE]…. Throws Error for unknown names, with the nearest.
+MapShape parse_map_shape(std::string_view text);
+
+/// Another order and turn of the charts: `px,nx,py:90,ny:270:mirror,pz,nz` names the chart of each of the layout's cells in reading
+/// order, and how its picture is turned clockwise (after mirroring) beyond what the layout does. Also `+X` for `px`.
+Layout with_faces(const Layout& layout, const sphere::AnyParameterization& parameterization, std::string_view faces);
+
+/// Size of a chart in a picture of this size, or nothing when the grid doesn't divide it.
+std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, int picture_height);
+
+/// Copies a chart out of a cell's pixels, or into them. Sizes match (swapped for odd quarter turns).
+void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart);
+void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture);
+
+/// The rectangle of a cell in a picture.
+template <class T>
+ImageView<T> cell_of(const Layout& layout, const LayoutCell& cell, ImageView<T> picture) {
+  const int width = picture.width / layout.columns, height = picture.height / layout.rows;
+  return picture.part(cell.column * width, cell.row * height, width, height);
+}
+
+}  // namespace welkin

@@ -1,0 +1,77 @@
+#include "welkin/map/map.h"
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+#include "welkin/base/error.h"
+
+namespace welkin {
+
+Level::Level(int charts, int width, int height, int channels)
+    : charts_(charts), width_(width), height_(height) {
+  assert(charts > 0);
+  constexpr int kLargestSide = 1 << 20;
+  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide / charts) {
+    throw Error("a map of " + std::to_string(charts) + " charts of " + std::to_string(width) + "×" +
+                std::to_string(height) + " texels cannot be made (a side is 1 to " +
+                std::to_string(kLargestSide / charts) + ")");
+  }
+  storage_ = Image(width + 2 * kBorder, (height + 2 * kBorder) * charts, channels);
+}
+
+ImageView<float> Level::chart(int index) {
+  assert(index >= 0 && index < charts_);
+  return storage_.view().part(kBorder, index * (height_ + 2 * kBorder) + kBorder, width_, height_);
+}
+
+ImageView<const float> Level::chart(int index) const {
+  assert(index >= 0 && index < charts_);
+  return storage_.view().part(kBorder, index * (height_ + 2 * kBorder) + kBorder, width_, height_);
+}
+
+std::ptrdiff_t Level::chart_stride() const { return (height_ + 2 * kBorder) * storage_.view().row_stride; }
+
+std::vector<std::string> default_channel_names(int count) {
+  switch (count) {
+    case 1: return {"Y"};
+    case 2: return {"Y", "A"};
+    case 3: return {"R", "G", "B"};
+    case 4: return {"R", "G", "B", "A"};
+    default: break;
+  }
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.push_back("C" + std::to_string(i));
+  return names;
+}
+
+Map::Map(sphere::AnyParameterization which, int width, int height, int channels)
+    : parameterization(std::move(which)),
+      level(parameterization.charts(), width, height, channels),
+      channel_names(default_channel_names(channels)) {}
+
+void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart, int row,
+                        float* out) {
+  constexpr int kBatch = 256;
+  alignas(64) float u[kBatch], v[kBatch], density[kBatch], valid[kBatch];
+  const float texel_area = 1.0f / (static_cast<float>(width) * static_cast<float>(height));
+  const float centre = (static_cast<float>(row) + 0.5f) / static_cast<float>(height);
+  std::fill(std::begin(v), std::end(v), centre);
+  const sphere::Kernels& kernels = parameterization.kernels();
+  if (parameterization.density_by_row()) {
+    std::fill(out, out + width,
+              static_cast<float>(parameterization.solid_angle_density(chart, 0.5, centre)) * texel_area);
+    return;
+  }
+  for (int start = 0; start < width; start += kBatch) {
+    const int count = std::min(kBatch, width - start);
+    for (int i = 0; i < kBatch; ++i) {
+      u[i] = (static_cast<float>(std::min(start + i, width - 1)) + 0.5f) / static_cast<float>(width);
+    }
+    kernels.density(parameterization.self(), chart, u, v, density, static_cast<std::size_t>(count));
+    kernels.valid(parameterization.self(), chart, u, v, valid, static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) out[start + i] = valid[i] > 0 ? density[i] * texel_area : 0.0f;
+  }
+}
+
+}  // namespace welkin

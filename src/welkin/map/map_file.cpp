@@ -1,0 +1,332 @@
+#include "welkin/map/map_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "welkin/base/error.h"
+#include "welkin/map/borders.h"
+
+namespace welkin {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kShapeKey = "welkin.parameterization";
+constexpr const char* kFacesKey = "welkin.faces";
+constexpr const char* kOrientationKey = "welkin.orientation";
+
+/// The file of one chart: `%s` replaced by the chart's name.
+fs::path chart_path(const fs::path& pattern, const std::string& chart) {
+  std::string text = pattern.string();
+  text.replace(text.find("%s"), 2, chart);
+  return text;
+}
+
+bool is_pattern(const fs::path& path) { return path.string().find("%s") != std::string::npos; }
+
+std::string text_of(const Matrix3& m) {
+  std::string text;
+  for (const auto& row : m.rows) {
+    for (double value : row) {
+      char number[32];
+      std::snprintf(number, sizeof number, "%.17g", value);
+      text += (text.empty() ? "" : " ") + std::string(number);
+    }
+  }
+  return text;
+}
+
+std::optional<Matrix3> matrix_from(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  Matrix3 m;
+  for (auto& row : m.rows) {
+    for (double& value : row) {
+      if (!(in >> value)) return std::nullopt;
+    }
+  }
+  if (!is_orthonormal(m)) return std::nullopt;
+  return m;
+}
+
+/// Whether a picture of this size can be of this shape: within one texel, or a hundredth, of the aspect. Texels of the
+/// equal-area map are never square, so it may have any aspect.
+bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
+  const auto size = chart_size_in(shape.layout, width, height);
+  if (!size) return false;
+  chart = *size;
+  if (shape.parameterization.name() == "equal-area") return true;
+  const double wanted = shape.parameterization.aspect() * chart.height;
+  return std::fabs(wanted - chart.width) <= std::max(1.0, 0.01 * wanted);
+}
+
+/// What a picture's size suggests.
+std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& file, bool pattern) {
+  const int width = file.parts[0].width, height = file.parts[0].height;
+  if (pattern) return std::pair("cube:faces", "six files");
+  if (file.parts.size() == 6 && width == height) return std::pair("cube:layers", "six square parts");
+  const auto ratio = [&](int across, int down) {
+    return static_cast<long>(width) * down == static_cast<long>(height) * across;
+  };
+  if (std::abs(width - 2 * height) <= 1) return std::pair("latlong", "guessed from the aspect 2:1");
+  if (ratio(4, 3)) return std::pair("cube:hcross", "guessed from the aspect 4:3");
+  if (ratio(3, 4)) return std::pair("cube:vcross", "guessed from the aspect 3:4");
+  if (ratio(6, 1)) return std::pair("cube:hstrip", "guessed from the aspect 6:1");
+  if (ratio(1, 6)) return std::pair("cube:vstrip", "guessed from the aspect 1:6");
+  if (ratio(3, 2)) return std::pair("cube:3x2", "guessed from the aspect 3:2");
+  return std::nullopt;
+}
+
+std::string attribute(const io::FileInfo& file, const char* key) {
+  const auto found = file.attributes.find(key);
+  return found == file.attributes.end() ? std::string() : found->second;
+}
+
+/// The channels to read: indices into the part's list.
+std::vector<int> choose_channels(const std::string& name, const io::PartInfo& part,
+                                 const std::vector<std::string>& wanted) {
+  const auto index_of = [&](const std::string& channel) {
+    const auto found = std::find(part.channels.begin(), part.channels.end(), channel);
+    return found == part.channels.end() ? -1 : static_cast<int>(found - part.channels.begin());
+  };
+  std::vector<int> chosen;
+  for (const std::string& channel : wanted) {
+    const int index = index_of(channel);
+    if (index < 0) throw Error(name + ": " + unknown_name("channel", channel, part.channels));
+    chosen.push_back(index);
+  }
+  if (!chosen.empty()) return chosen;
+  if (index_of("R") >= 0 && index_of("G") >= 0 && index_of("B") >= 0) {
+    chosen = {index_of("R"), index_of("G"), index_of("B")};
+  } else if (index_of("Y") >= 0) {
+    chosen = {index_of("Y")};
+  } else {
+    for (int i = 0; i < std::min<int>(3, static_cast<int>(part.channels.size())); ++i) chosen.push_back(i);
+    return chosen;
+  }
+  if (index_of("A") >= 0) chosen.push_back(index_of("A"));
+  return chosen;
+}
+
+/// Opens the file, or the first of the files of a pattern.
+std::unique_ptr<io::Reader> open_first(const fs::path& path, const ReadMapOptions& options) {
+  if (!is_pattern(path)) return io::open(path, options.image);
+  // Which charts there are depends on the shape; without one, the faces of a cube.
+  std::string first = "px";
+  if (options.shape) first = chart_names(parse_map_shape(*options.shape).parameterization).front();
+  return io::open(chart_path(path, first), options.image);
+}
+
+MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options) {
+  MapFileInfo info;
+  info.image = file;
+  const bool pattern = is_pattern(path);
+  std::string shape, faces = options.faces;
+  if (options.shape) {
+    shape = *options.shape;
+    if (pattern && shape.find(':') == std::string::npos) {
+      shape.insert(std::min(shape.find(','), shape.size()), ":faces");
+    }
+    info.reason = "as asked";
+  } else if (!attribute(file, kShapeKey).empty()) {
+    shape = attribute(file, kShapeKey);
+    info.reason = "declared by the file";
+    if (faces.empty()) faces = attribute(file, kFacesKey);
+  } else if (file.envmap) {
+    const bool cube = *file.envmap == "cube";
+    const int width = file.parts[0].width, height = file.parts[0].height / (cube ? 6 : 1);
+    shape = cube ? "openexr-cube:openexr" : "openexr-latlong";
+    shape += ",width=" + std::to_string(width) + ",height=" + std::to_string(height);
+    info.reason = "declared by the envmap attribute";
+  } else if (const auto guessed = guess(file, pattern)) {
+    shape = guessed->first;
+    info.reason = guessed->second;
+  }
+  if (options.orientation) {
+    info.orientation = *options.orientation;
+  } else if (const auto declared = matrix_from(attribute(file, kOrientationKey))) {
+    info.orientation = *declared;
+  }
+  if (shape.empty()) {
+    info.reason = "the file declares no parameterization, and its size suggests none";
+    return info;
+  }
+  try {
+    info.shape = parse_map_shape(shape);
+    if (!faces.empty()) info.shape->layout = with_faces(info.shape->layout, info.shape->parameterization, faces);
+  } catch (const Error& error) {
+    // A damaged declaration names its file; a bad request names itself.
+    if (!options.shape && options.faces.empty()) throw Error(path.string() + ": " + error.what());
+    throw;
+  }
+  const LayoutKind kind = info.shape->layout.kind;
+  if (kind == LayoutKind::files && !pattern) {
+    throw Error(path.string() + ": " + info.shape->text() + " is in several files: put %s in the name, for " +
+                chart_names(info.shape->parameterization).front() + ", " +
+                chart_names(info.shape->parameterization)[1] + "…");
+  }
+  if (kind != LayoutKind::files && pattern) {
+    throw Error(path.string() + ": %s stands for a face's name, but " + info.shape->text() + " is in one file");
+  }
+  if (kind == LayoutKind::layers && file.parts.size() < info.shape->layout.cells.size()) {
+    throw Error(path.string() + ": " + info.shape->text() + " needs " +
+                std::to_string(info.shape->layout.cells.size()) + " parts, the file has " +
+                std::to_string(file.parts.size()));
+  }
+  if (kind != LayoutKind::layers && options.part >= file.parts.size()) {
+    throw Error(path.string() + ": has no part " + std::to_string(options.part) + " (parts are 0 to " +
+                std::to_string(file.parts.size() - 1) + ")");
+  }
+  const io::PartInfo& part = file.parts[kind == LayoutKind::layers ? 0 : options.part];
+  Layout single;  // one chart per picture
+  const MapShape per_picture{info.shape->parameterization, kind == LayoutKind::picture ? info.shape->layout : single};
+  if (!size_fits(per_picture, part.width, part.height, info.chart)) {
+    char aspect[32];
+    std::snprintf(aspect, sizeof aspect, "%.4g",
+                  info.shape->parameterization.aspect() * per_picture.layout.columns / per_picture.layout.rows);
+    throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
+                " does not fit " + info.shape->text() + ", whose width is " + aspect + " times its height" +
+                (per_picture.layout.columns * per_picture.layout.rows > 1
+                     ? " in " + std::to_string(per_picture.layout.columns) + "×" +
+                           std::to_string(per_picture.layout.rows) + " equal cells"
+                     : ""));
+  }
+  return info;
+}
+
+}  // namespace
+
+MapFileInfo inspect_map(const fs::path& path, const ReadMapOptions& options) {
+  return inspect(path, open_first(path, options)->info(), options);
+}
+
+LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
+  const std::string name = path.string();
+  std::unique_ptr<io::Reader> reader = open_first(path, options);
+  MapFileInfo info = inspect(path, reader->info(), options);
+  if (!info.shape) {
+    const io::PartInfo& part = info.image.parts.at(std::min(options.part, info.image.parts.size() - 1));
+    throw Error(name + ": cannot tell which parameterization " + std::to_string(part.width) + "×" +
+                std::to_string(part.height) + " is; name it with --from (octahedral, angular, sphere, fisheye-equidistant…)");
+  }
+  const Layout& layout = info.shape->layout;
+  const auto& p = info.shape->parameterization;
+  const std::size_t first_part = layout.kind == LayoutKind::layers ? 0 : options.part;
+  const std::vector<int> channels = choose_channels(name, info.image.parts[first_part], options.channels);
+  const int count = static_cast<int>(channels.size());
+  Map map(p, info.chart.width, info.chart.height, count);
+  map.orientation = info.orientation;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    map.channel_names[i] = info.image.parts[first_part].channels[static_cast<std::size_t>(channels[i])];
+  }
+  const auto plain = [](const LayoutCell& cell) { return !cell.mirrored && cell.quarter_turns == 0; };
+  /// One picture holds one chart: straight into the map where it is neither turned nor mirrored.
+  const auto read_chart = [&](io::Reader& from, std::size_t part, const LayoutCell& cell, const std::string& file) {
+    const io::PartInfo& other = from.info().parts.at(part);
+    if (other.width != info.chart.width || other.height != info.chart.height) {
+      throw Error(file + ": is " + std::to_string(other.width) + "×" + std::to_string(other.height) +
+                  ", but the first face is " + std::to_string(info.chart.width) + "×" +
+                  std::to_string(info.chart.height));
+    }
+    std::vector<std::string> names;
+    for (const std::string& each : map.channel_names) names.push_back(each);
+    const std::vector<int> own = choose_channels(file, other, names);
+    if (plain(cell)) return from.read(part, own, map.level.chart(cell.chart));
+    Image picture(other.width, other.height, count);
+    from.read(part, own, picture.view());
+    copy_from_cell(cell, picture.view(), map.level.chart(cell.chart));
+  };
+  switch (layout.kind) {
+    case LayoutKind::files: {
+      const std::vector<std::string> names = chart_names(p);
+      for (std::size_t i = 0; i < layout.cells.size(); ++i) {
+        const fs::path file = chart_path(path, names[i]);
+        read_chart(*io::open(file, options.image), options.part, layout.cells[i], file.string());
+      }
+      break;
+    }
+    case LayoutKind::layers:
+      for (std::size_t i = 0; i < layout.cells.size(); ++i) read_chart(*reader, i, layout.cells[i], name);
+      break;
+    case LayoutKind::picture:
+      if (layout.cells.size() == 1 && plain(layout.cells[0])) {
+        reader->read(options.part, channels, map.level.chart(0));
+        break;
+      }
+      {
+        const io::PartInfo& part = info.image.parts[options.part];
+        Image picture(part.width, part.height, count);
+        reader->read(options.part, channels, picture.view());
+        for (const LayoutCell& cell : layout.cells) {
+          copy_from_cell(cell, cell_of<const float>(layout, cell, picture.view()), map.level.chart(cell.chart));
+        }
+      }
+  }
+  fill_borders(map);
+  return {std::move(map), std::move(info)};
+}
+
+io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& layout, const WriteMapOptions& options) {
+  const auto& p = map.parameterization;
+  const Layout placed = options.faces.empty() ? layout : with_faces(layout, p, options.faces);
+  const bool pattern = is_pattern(path);
+  if (pattern != (placed.kind == LayoutKind::files)) {
+    throw Error(path.string() + (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
+                                         : ": several files are written: put %s in the name, where the face's name goes"));
+  }
+  io::WriteOptions image = options.image;
+  image.attributes[kShapeKey] = MapShape{p, layout}.text();
+  if (!options.faces.empty()) image.attributes[kFacesKey] = options.faces;
+  if (!(map.orientation == Matrix3{})) image.attributes[kOrientationKey] = text_of(map.orientation);
+
+  const auto turned_size = [&](const LayoutCell& cell) {
+    const bool swap = (cell.quarter_turns & 1) != 0;
+    return swap ? ChartSize{map.height(), map.width()} : ChartSize{map.width(), map.height()};
+  };
+  const auto picture_of = [&](const LayoutCell& cell) {
+    const ChartSize size = turned_size(cell);
+    Image picture(size.width, size.height, map.channels());
+    copy_to_cell(cell, map.level.chart(cell.chart), picture.view());
+    return picture;
+  };
+  const std::vector<std::string> names = chart_names(p);
+  switch (placed.kind) {
+    case LayoutKind::files: {
+      io::WriteReport total;
+      for (std::size_t i = 0; i < placed.cells.size(); ++i) {
+        const Image picture = picture_of(placed.cells[i]);
+        const io::WritePart part{"", picture.view(), map.channel_names};
+        const io::WriteReport report = io::write(chart_path(path, names[i]), {&part, 1}, image);
+        total.above += report.above;
+        total.below += report.below;
+        total.not_finite += report.not_finite;
+      }
+      return total;
+    }
+    case LayoutKind::layers: {
+      std::vector<Image> pictures;
+      std::vector<io::WritePart> parts;
+      for (const LayoutCell& cell : placed.cells) pictures.push_back(picture_of(cell));
+      for (std::size_t i = 0; i < pictures.size(); ++i) {
+        parts.push_back({names[i], static_cast<const Image&>(pictures[i]).view(), map.channel_names});
+      }
+      return io::write(path, parts, image);
+    }
+    case LayoutKind::picture: break;
+  }
+  if (placed.cells.size() == 1 && !placed.cells[0].mirrored && placed.cells[0].quarter_turns == 0) {
+    const io::WritePart part{"", map.level.chart(0), map.channel_names};
+    return io::write(path, {&part, 1}, image);
+  }
+  Image picture(placed.columns * map.width(), placed.rows * map.height(), map.channels());
+  for (const LayoutCell& cell : placed.cells) {
+    copy_to_cell(cell, map.level.chart(cell.chart), cell_of(placed, cell, picture.view()));
+  }
+  const io::WritePart part{"", static_cast<const Image&>(picture).view(), map.channel_names};
+  return io::write(path, {&part, 1}, image);
+}
+
+}  // namespace welkin

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "welkin/io/image_file.h"
+#include "welkin/map/layout.h"
+#include "welkin/map/map.h"
+
+/// Image files ↔ maps: which parameterization a picture has, and where its charts lie in it.
+namespace welkin {
+
+struct ReadMapOptions {
+  std::optional<std::string> shape;  ///< NAME[:LAYOUT][,PARAMETER=VALUE]…; without it, what the file declares, else a guess
+  std::string faces;                 ///< see with_faces; empty for the layout's own order
+  /// Which channels become the map's: names of the file. Empty: R G B (A), or Y (A), or the first three.
+  std::vector<std::string> channels;
+  /// How the file's directions relate to the native world (convention.h); without it, what the file declares, else native.
+  std::optional<Matrix3> orientation;
+  std::size_t part = 0;  ///< of a file with several pictures, unless these are the charts
+  io::ReadOptions image;
+};
+
+/// What is known of a map's file before its pixels are read.
+struct MapFileInfo {
+  io::FileInfo image;                ///< of the first file where there are several
+  std::optional<MapShape> shape;     ///< none when nothing declares it and the size suggests nothing
+  std::string reason;                ///< why this shape: `declared by the file`, `guessed from 2:1`…
+  ChartSize chart;                   ///< meaningful when there is a shape
+  Matrix3 orientation;
+};
+
+/// `path` contains `%s` when the charts are in files of their own. Throws Error: files that can't be read, shapes that don't exist,
+/// sizes that don't fit the shape.
+MapFileInfo inspect_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
+
+struct LoadedMap {
+  Map map;  ///< borders filled
+  MapFileInfo info;
+};
+
+/// Throws Error as inspect_map does, and when the shape is unknown: the message says how to name it. A picture of one chart is
+/// decoded straight into the map.
+LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
+
+struct WriteMapOptions {
+  io::WriteOptions image;
+  std::string faces;  ///< see with_faces
+};
+
+/// Writes the charts in the layout. The parameterization, layout, faces and orientation go into the file's text metadata where
+/// the format has any, and reading it restores them. Cells that no chart fills are 0.
+io::WriteReport write_map(const std::filesystem::path& path, const Map& map, const Layout& layout,
+                          const WriteMapOptions& options = {});
+
+}  // namespace welkin

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+
+#include "welkin/math/scalar.h"
+
+namespace welkin {
+
+/// A vector of three T: a direction when it has unit length. T is double, float or a SIMD pack.
+template <class T>
+struct Vec3 {
+  T x, y, z;
+};
+
+using Vec3d = Vec3<double>;
+
+template <class T>
+Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+Vec3<T> operator*(const T& s, const Vec3<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+T dot(const Vec3<T>& a, const Vec3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+T length(const Vec3<T>& a) {
+  return sqrt(dot(a, a));
+}
+template <class T>
+Vec3<T> normalize(const Vec3<T>& a) {
+  return (constant<T>(1.0) / length(a)) * a;
+}
+
+}  // namespace welkin

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "welkin/sphere/all.h"
+
+/// What the tests of parameterizations share: which ones, at which parameters, and where they are looked at.
+namespace welkin::sphere::cases {
+
+/// A parameterization with its one parameter set.
+template <class P, int kParameter>
+struct With : P {
+  With() : P(kParameter) {}
+};
+
+template <class List, class... More>
+struct Joined;
+template <class... P, class... More>
+struct Joined<TypeList<P...>, More...> {
+  using Types = ::testing::Types<P..., More...>;
+};
+
+/// Every registered parameterization, and those with parameters at a few other values.
+using Cases =
+    Joined<AllParameterizations, With<MirrorBall, 5>, With<MirrorBall, 2>, With<FisheyeEquidistant, 220>,
+           With<FisheyeEquidistant, 360>, With<FisheyeEquisolid, 220>, With<FisheyeEquisolid, 360>,
+           With<FisheyeOrthographic, 120>, With<FisheyeStereographic, 220>, With<FisheyeStereographic, 350>,
+           With<Cylinder, 150>, With<Mercator, 120>>::Types;
+
+struct CaseName {
+  template <class P>
+  static std::string GetName(int index) {
+    std::string name = P::kName;
+    for (char& c : name) c = c == '-' ? '_' : c;
+    return name + "_" + std::to_string(index);
+  }
+};
+
+struct Place {
+  int chart;
+  double u, v;
+};
+
+/// Points spread evenly over the sphere (a Fibonacci spiral).
+inline std::vector<Vec3d> spread_directions(int count) {
+  std::vector<Vec3d> directions;
+  for (int i = 0; i < count; ++i) {
+    const double y = 1 - (2 * i + 1.0) / count, side = std::sqrt(1 - y * y), angle = 2.3999632297286533 * i;
+    directions.push_back({side * std::cos(angle), y, side * std::sin(angle)});
+  }
+  return directions;
+}
+
+/// Axes, diagonals of the coordinate planes and octants, and directions an epsilon away from each.
+inline std::vector<Vec3d> special_directions() {
+  std::vector<Vec3d> directions;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const Vec3d d{1.0 * x, 1.0 * y, 1.0 * z};
+        directions.push_back(normalize(d));
+        for (const Vec3d& nudge : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) {
+          for (const double size : {1e-3, 1e-6, 1e-9}) {
+            directions.push_back(normalize(d + size * nudge));
+            directions.push_back(normalize(d - size * nudge));
+          }
+        }
+      }
+    }
+  }
+  return directions;
+}
+
+inline std::vector<Vec3d> all_directions() {
+  std::vector<Vec3d> directions = special_directions();
+  for (const Vec3d& d : spread_directions(20000)) directions.push_back(d);
+  return directions;
+}
+
+/// Random places of every chart in [low, high]².
+template <class P>
+std::vector<Place> random_places(int count, double low, double high) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> along(low, high);
+  std::vector<Place> places;
+  for (int i = 0; i < count; ++i) {
+    const double u = along(random), v = along(random);
+    places.push_back({i % P::kCharts, u, v});
+  }
+  return places;
+}
+
+/// A lattice over every chart that stays off all the lines of symmetry where a chart may have a crease.
+template <class P>
+std::vector<Place> lattice_places(int size) {
+  std::vector<Place> places;
+  for (int chart = 0; chart < P::kCharts; ++chart) {
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) places.push_back({chart, (i + 0.37) / size, (j + 0.61) / size});
+    }
+  }
+  return places;
+}
+
+/// Whether the place and those `margin` around it are valid.
+template <class P>
+bool well_inside(const P& p, const Place& at, double margin) {
+  for (const double du : {-margin, margin}) {
+    for (const double dv : {-margin, margin}) {
+      const double u = at.u + du, v = at.v + dv;
+      if (u < 0 || u > 1 || v < 0 || v > 1 || !p.valid(at.chart, u, v)) return false;
+    }
+  }
+  return true;
+}
+
+inline double distance(const Vec3d& a, const Vec3d& b) {
+  return length(a - b);
+}
+
+/// How far the direction at a place moves when u and v are off by up to `error`: what a rounding error of
+/// that size in (u, v) excuses, at singular points too.
+template <class P>
+double wobble(const P& p, int chart, double u, double v, double error) {
+  const Vec3d d = p.to_sphere(chart, u, v);
+  double most = 0;
+  for (const double du : {-error, 0.0, error}) {
+    for (const double dv : {-error, 0.0, error}) {
+      most = std::max(most, distance(d, p.to_sphere(chart, u + du, v + dv)));
+    }
+  }
+  return most;
+}
+
+/// The partial derivatives of the direction by u and v, by central differences.
+struct Tangents {
+  Vec3d along_u, along_v;
+};
+
+template <class P>
+Tangents tangents(const P& p, const Place& at, double step) {
+  const double scale = 0.5 / step;
+  return {scale * (p.to_sphere(at.chart, at.u + step, at.v) - p.to_sphere(at.chart, at.u - step, at.v)),
+          scale * (p.to_sphere(at.chart, at.u, at.v + step) - p.to_sphere(at.chart, at.u, at.v - step))};
+}
+
+}  // namespace welkin::sphere::cases

@@ -1,0 +1,174 @@
+/// Float and SIMD packs of float against double. A direction may be off by 3e-7, about five roundings, beside
+/// what a rounding of (u, v) itself would move it.
+
+#include <algorithm>
+#include <xsimd/xsimd.hpp>
+
+#include "welkin/sphere/parameterization_cases.h"
+
+namespace welkin::sphere {
+namespace {
+
+using namespace cases;
+using Pack = xsimd::batch<float>;
+
+constexpr double kDirectionError = 3e-7;  ///< of to_sphere
+constexpr double kInputRounding = 6e-8;   ///< 2u − 1 and the like, in float
+constexpr double kPlaceError = 3e-7;      ///< of from_sphere, in u and v
+
+template <class P>
+class ParameterizationPrecisionTest : public ::testing::Test {};
+TYPED_TEST_SUITE(ParameterizationPrecisionTest, Cases, CaseName);
+
+Vec3<float> rounded(const Vec3d& d) {
+  return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
+}
+Vec3d widened(const Vec3<float>& d) {
+  return {d.x, d.y, d.z};
+}
+
+template <class P>
+void expect_direction(const P& p, const Place& at, const Vec3<float>& d) {
+  const double allowed = kDirectionError + wobble(p, at.chart, at.u, at.v, kInputRounding);
+  ASSERT_LE(distance(widened(d), p.to_sphere(at.chart, at.u, at.v)), allowed)
+      << at.chart << " " << at.u << " " << at.v;
+}
+
+template <class P>
+void expect_place(const P& p, const Vec3<float>& d, const ChartPoint<float>& at) {
+  ASSERT_TRUE(std::isfinite(at.u) && std::isfinite(at.v)) << d.x << " " << d.y << " " << d.z;
+  const int chart = static_cast<int>(at.chart);
+  ASSERT_TRUE(static_cast<float>(chart) == at.chart && chart >= 0 && chart < P::kCharts) << at.chart;
+  const Vec3d exact = widened(d);
+  if (!p.covers(exact)) return;
+  const double u = at.u, v = at.v;
+  const double allowed = kDirectionError + wobble(p, chart, u, v, kPlaceError);
+  ASSERT_LE(distance(p.to_sphere(chart, u, v), normalize(exact)), allowed)
+      << d.x << " " << d.y << " " << d.z << " lands on " << at.chart << " " << at.u << " " << at.v;
+}
+
+template <class P>
+void expect_density(const P& p, const Place& at, float density) {
+  const double exact = p.solid_angle_density(at.chart, at.u, at.v);
+  // 5e-6: near a rim, one rounding over the square of the cosine. Where density falls to 0, a share of the
+  // average.
+  const double average = p.coverage() / P::kCharts;
+  ASSERT_NEAR(density, exact, 5e-6 * exact + 4e-7 * average) << at.chart << " " << at.u << " " << at.v;
+}
+
+/// Random places, their coordinates rounded to float.
+template <class P>
+std::vector<Place> float_places(double low, double high) {
+  std::vector<Place> places = random_places<P>(16384, low, high);
+  for (Place& at : places) at = {at.chart, static_cast<float>(at.u), static_cast<float>(at.v)};
+  return places;
+}
+
+/// The same of one chart, so that a pack can be filled.
+template <class P>
+std::vector<Place> float_places_of(int chart, double low, double high) {
+  std::vector<Place> places = float_places<P>(low, high);
+  for (Place& at : places) at.chart = chart;
+  places.resize(places.size() / Pack::size / P::kCharts * Pack::size);
+  return places;
+}
+
+TYPED_TEST(ParameterizationPrecisionTest, FloatDirectionsAgreeWithDouble) {
+  const TypeParam p;
+  for (const Place& at : float_places<TypeParam>(0, 1)) {
+    if (!p.valid(at.chart, at.u, at.v)) continue;
+    expect_direction(p, at, p.to_sphere(at.chart, static_cast<float>(at.u), static_cast<float>(at.v)));
+    if (this->HasFatalFailure()) return;
+  }
+}
+
+TYPED_TEST(ParameterizationPrecisionTest, FloatPlacesAgreeWithDouble) {
+  const TypeParam p;
+  for (const Vec3d& d : all_directions()) {
+    expect_place(p, rounded(d), p.from_sphere(rounded(d)));
+    if (this->HasFatalFailure()) return;
+  }
+}
+
+TYPED_TEST(ParameterizationPrecisionTest, FloatDensityAgreesWithDouble) {
+  const TypeParam p;
+  for (const Place& at : float_places<TypeParam>(0.001, 0.999)) {
+    if (!well_inside(p, at, 0.005)) continue;
+    expect_density(p, at,
+                   p.solid_angle_density(at.chart, static_cast<float>(at.u), static_cast<float>(at.v)));
+    if (this->HasFatalFailure()) return;
+  }
+}
+
+TYPED_TEST(ParameterizationPrecisionTest, PacksAgreeWithDoubleInEveryLane) {
+  const TypeParam p;
+  for (int chart = 0; chart < TypeParam::kCharts; ++chart) {
+    const std::vector<Place> places = float_places_of<TypeParam>(chart, 0, 1);
+    for (std::size_t i = 0; i < places.size(); i += Pack::size) {
+      float us[Pack::size], vs[Pack::size];
+      for (std::size_t lane = 0; lane < Pack::size; ++lane) {
+        us[lane] = static_cast<float>(places[i + lane].u);
+        vs[lane] = static_cast<float>(places[i + lane].v);
+      }
+      const Pack u = Pack::load_unaligned(us), v = Pack::load_unaligned(vs);
+      const Vec3<Pack> d = p.to_sphere(chart, u, v);
+      const Pack density = p.solid_angle_density(chart, u, v);
+      const Mask<Pack> valid = p.valid(chart, u, v);
+      for (std::size_t lane = 0; lane < Pack::size; ++lane) {
+        const Place& at = places[i + lane];
+        if (well_inside(p, at, 0.005)) expect_density(p, at, density.get(lane));
+        if (well_inside(p, at, 1e-6)) {
+          ASSERT_TRUE(valid.get(lane)) << at.u << " " << at.v;
+        }
+        if (p.valid(at.chart, at.u, at.v)) {
+          expect_direction(p, at, {d.x.get(lane), d.y.get(lane), d.z.get(lane)});
+        }
+        if (this->HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TYPED_TEST(ParameterizationPrecisionTest, PacksFindTheirPlacesWithADifferentChartInEveryLane) {
+  const TypeParam p;
+  std::vector<Vec3d> directions = all_directions();
+  // Neighbours of the list go to different lanes' charts.
+  std::shuffle(directions.begin(), directions.end(), std::mt19937(1));
+  int packs_of_several_charts = 0;
+  for (std::size_t i = 0; i + Pack::size <= directions.size(); i += Pack::size) {
+    float x[Pack::size], y[Pack::size], z[Pack::size];
+    for (std::size_t lane = 0; lane < Pack::size; ++lane) {
+      const Vec3<float> d = rounded(directions[i + lane]);
+      x[lane] = d.x, y[lane] = d.y, z[lane] = d.z;
+    }
+    const Vec3<Pack> d{Pack::load_unaligned(x), Pack::load_unaligned(y), Pack::load_unaligned(z)};
+    const ChartPoint<Pack> at = p.from_sphere(d);
+    const Mask<Pack> covered = p.covers(d);
+    for (std::size_t lane = 0; lane < Pack::size; ++lane) {
+      const Vec3<float> one{x[lane], y[lane], z[lane]};
+      expect_place(p, one, {at.chart.get(lane), at.u.get(lane), at.v.get(lane)});
+      ASSERT_EQ(covered.get(lane), p.covers(one)) << one.x << " " << one.y << " " << one.z;
+      if (this->HasFatalFailure()) return;
+    }
+    packs_of_several_charts += at.chart.get(0) != at.chart.get(1) ? 1 : 0;
+  }
+  if (TypeParam::kCharts > 1) {
+    EXPECT_GT(packs_of_several_charts, 1000);
+  }
+}
+
+/// Packs are finite, of unit length and as double says in the margin, where borders are filled.
+TYPED_TEST(ParameterizationPrecisionTest, PacksAgreeWithDoubleInTheMargin) {
+  const TypeParam p;
+  for (const Place& at : float_places<TypeParam>(-1, 2)) {
+    const Vec3<Pack> d =
+        p.to_sphere(at.chart, Pack(static_cast<float>(at.u)), Pack(static_cast<float>(at.v)));
+    // Angles up to 6 turns, and coordinates up to 2, are rounded to four times as much.
+    const double allowed = 4 * kDirectionError + wobble(p, at.chart, at.u, at.v, 4 * kInputRounding);
+    const Vec3<float> first{d.x.get(0), d.y.get(0), d.z.get(0)};
+    ASSERT_LE(distance(widened(first), p.to_sphere(at.chart, at.u, at.v)), allowed) << at.u << " " << at.v;
+  }
+}
+
+}  // namespace
+}  // namespace welkin::sphere

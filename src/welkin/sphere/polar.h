@@ -1,0 +1,66 @@
+#pragma once
+
+#include "welkin/math/vec.h"
+
+namespace welkin::sphere {
+
+/// atan2(x, z): the angle around +Y from +Z toward +X, in [−π, π], and 0 on the axis (where a pack's atan2
+/// gives NaN).
+template <class T>
+T longitude_of(const Vec3<T>& d) {
+  const T zero = constant<T>(0);
+  const auto on_axis = (d.x == zero) & (d.z == zero);
+  return atan2(d.x, select(on_axis, constant<T>(1), d.z));
+}
+
+/// A direction of any length > 0 as a height on the +Y axis.
+template <class T>
+struct Height {
+  T length;    ///< of the direction
+  T distance;  ///< from the axis, over the length: cos(latitude)
+  T height;    ///< sin(latitude)
+  T depth;     ///< 1 − |height|: below the nearer pole, precise there
+};
+
+template <class T>
+Height<T> height_of(const Vec3<T>& d) {
+  const T across = d.x * d.x + d.z * d.z;
+  const T length = sqrt(across + d.y * d.y);
+  return {length, sqrt(across) / length, d.y / length, across / (length * (length + abs(d.y)))};
+}
+
+/// A direction of any length > 0 in polar coordinates around +Z: angle θ from +Z, and (x, y) the unit vector
+/// of its part in the xy plane, (1, 0) on the axis.
+template <class T>
+struct Polar {
+  T x, y, sine, cosine;
+
+  T angle() const { return atan2(sine, cosine); }
+
+  /// sin(θ/2), to full relative precision.
+  T half_sine() const {
+    const T one = constant<T>(1), zero = constant<T>(0), half = constant<T>(0.5);
+    return select(cosine > zero, sine / sqrt(constant<T>(2) * (one + max(cosine, zero))),
+                  sqrt(half * (one - min(cosine, zero))));
+  }
+
+  /// tan(θ/2), at most 10⁴.
+  T half_tangent() const {
+    const T one = constant<T>(1), zero = constant<T>(0);
+    const T back = (one - min(cosine, zero)) / max(sine, constant<T>(1e-12));
+    return min(select(cosine > zero, sine / (one + max(cosine, zero)), back), constant<T>(1e4));
+  }
+};
+
+template <class T>
+Polar<T> polar_of(const Vec3<T>& d) {
+  const T zero = constant<T>(0), one = constant<T>(1);
+  const T across = sqrt(d.x * d.x + d.y * d.y);
+  const T length = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+  const auto off_axis = across > zero;
+  const T scale = one / select(off_axis, across, one);
+  return {select(off_axis, d.x * scale, one), select(off_axis, d.y * scale, zero), across / length,
+          d.z / length};
+}
+
+}  // namespace welkin::sphere

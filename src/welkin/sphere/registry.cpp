@@ -1,0 +1,200 @@
+#include "welkin/sphere/registry.h"
+
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+
+#include "welkin/base/cpu.h"
+#include "welkin/base/error.h"
+#include "welkin/sphere/all.h"
+
+namespace welkin::sphere {
+
+/// What AnyParameterization forwards to: one derived class per registered struct.
+class AnyParameterization::Model {
+ public:
+  virtual ~Model() = default;
+  virtual std::string name() const = 0;
+  virtual std::vector<Parameter> parameters() const = 0;
+  virtual bool set(std::string_view parameter, double value) = 0;
+  virtual std::unique_ptr<Model> with_defaults() const = 0;
+  virtual int charts() const = 0;
+  virtual double aspect() const = 0;
+  virtual double coverage() const = 0;
+  virtual bool density_by_row() const = 0;
+  virtual Vec3d to_sphere(int chart, double u, double v) const = 0;
+  virtual ChartPoint<double> from_sphere(const Vec3d& d) const = 0;
+  virtual double solid_angle_density(int chart, double u, double v) const = 0;
+  virtual bool valid(int chart, double u, double v) const = 0;
+  virtual bool covers(const Vec3d& d) const = 0;
+  virtual const void* self() const = 0;
+
+  const Kernels* kernels = nullptr;
+};
+
+namespace {
+
+template <class P>
+concept HasParameters = requires(P& p) { p.visit_parameters([](auto&&...) {}); };
+
+template <class P>
+class ModelOf final : public AnyParameterization::Model {
+ public:
+  std::string name() const override { return P::kName; }
+
+  std::vector<Parameter> parameters() const override {
+    std::vector<Parameter> list;
+    if constexpr (HasParameters<P>) {
+      P copy = p_;
+      copy.visit_parameters([&](const char* name, double& value, double lowest, double highest, const char* text) {
+        list.push_back({name, value, lowest, highest, text});
+      });
+    }
+    return list;
+  }
+
+  bool set([[maybe_unused]] std::string_view parameter, [[maybe_unused]] double value) override {
+    bool found = false;
+    if constexpr (HasParameters<P>) {
+      p_.visit_parameters([&](const char* name, double& field, double, double, const char*) {
+        if (parameter == name) {
+          field = value;
+          found = true;
+        }
+      });
+      p_.update();
+    }
+    return found;
+  }
+
+  std::unique_ptr<Model> with_defaults() const override {
+    auto fresh = std::make_unique<ModelOf>();
+    fresh->kernels = kernels;
+    return fresh;
+  }
+
+  int charts() const override { return P::kCharts; }
+  double aspect() const override { return p_.aspect(); }
+  double coverage() const override { return p_.coverage(); }
+  bool density_by_row() const override { return P::kDensityByRow; }
+  Vec3d to_sphere(int chart, double u, double v) const override { return p_.to_sphere(chart, u, v); }
+  ChartPoint<double> from_sphere(const Vec3d& d) const override { return p_.from_sphere(d); }
+  double solid_angle_density(int chart, double u, double v) const override {
+    return p_.solid_angle_density(chart, u, v);
+  }
+  bool valid(int chart, double u, double v) const override { return p_.valid(chart, u, v); }
+  bool covers(const Vec3d& d) const override { return p_.covers(d); }
+  const void* self() const override { return &p_; }
+
+ private:
+  P p_;
+};
+
+const Kernels& best_kernels(std::size_t index) {
+#ifdef WELKIN_HAS_AVX2
+  if (instruction_set() == InstructionSet::avx2) return kernels_avx2(index);
+#endif
+  return kernels_baseline(index);
+}
+
+template <class... P>
+std::vector<std::unique_ptr<AnyParameterization::Model>> make_models(TypeList<P...>) {
+  std::vector<std::unique_ptr<AnyParameterization::Model>> models;
+  (models.push_back(std::make_unique<ModelOf<P>>()), ...);
+  for (std::size_t i = 0; i < models.size(); ++i) models[i]->kernels = &best_kernels(i);
+  return models;
+}
+
+const std::vector<std::unique_ptr<AnyParameterization::Model>>& models() {
+  static const auto all = make_models(AllParameterizations{});
+  return all;
+}
+
+std::string shortest(double value) {
+  char text[40];
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
+  return text;
+}
+
+void set_parameter(AnyParameterization::Model& model, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  const std::string name(assignment.substr(0, equals));
+  const std::vector<Parameter> known = model.parameters();
+  const Parameter* parameter = nullptr;
+  std::vector<std::string> names;
+  for (const Parameter& each : known) {
+    names.push_back(each.name);
+    if (each.name == name) parameter = &each;
+  }
+  if (names.empty()) throw Error(model.name() + " takes no parameters, but '" + name + "' was given");
+  if (parameter == nullptr) throw Error(unknown_name("parameter of " + model.name(), name, names));
+  if (equals == std::string_view::npos) throw Error(model.name() + ": write " + name + "=NUMBER");
+  const std::string text(assignment.substr(equals + 1));
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value >= parameter->lowest && value <= parameter->highest)) {
+    throw Error(model.name() + ": " + name + "=" + text + " is not a number in " + shortest(parameter->lowest) + "…" +
+                shortest(parameter->highest) + " (" + parameter->description + ")");
+  }
+  model.set(name, value);
+}
+
+}  // namespace
+
+const std::vector<std::string>& parameterization_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const auto& model : models()) list.push_back(model->name());
+    return list;
+  }();
+  return names;
+}
+
+AnyParameterization AnyParameterization::make(std::string_view spec) {
+  const std::size_t comma = spec.find(',');
+  const std::string_view name = spec.substr(0, comma);
+  for (const auto& model : models()) {
+    if (model->name() != name) continue;
+    std::unique_ptr<Model> made = model->with_defaults();
+    std::string_view rest = comma == std::string_view::npos ? std::string_view{} : spec.substr(comma + 1);
+    while (!rest.empty()) {
+      const std::size_t next = rest.find(',');
+      set_parameter(*made, rest.substr(0, next));
+      rest = next == std::string_view::npos ? std::string_view{} : rest.substr(next + 1);
+    }
+    return AnyParameterization(std::shared_ptr<const Model>(std::move(made)));
+  }
+  throw Error(unknown_name("parameterization", name, parameterization_names()));
+}
+
+std::string AnyParameterization::name() const { return model_->name(); }
+
+std::string AnyParameterization::spec() const {
+  std::string text = model_->name();
+  const std::vector<Parameter> now = parameters();
+  const std::vector<Parameter> defaults = model_->with_defaults()->parameters();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i].value != defaults[i].value) text += "," + now[i].name + "=" + shortest(now[i].value);
+  }
+  return text;
+}
+
+std::vector<Parameter> AnyParameterization::parameters() const { return model_->parameters(); }
+int AnyParameterization::charts() const { return model_->charts(); }
+double AnyParameterization::aspect() const { return model_->aspect(); }
+double AnyParameterization::coverage() const { return model_->coverage(); }
+bool AnyParameterization::density_by_row() const { return model_->density_by_row(); }
+Vec3d AnyParameterization::to_sphere(int chart, double u, double v) const { return model_->to_sphere(chart, u, v); }
+ChartPoint<double> AnyParameterization::from_sphere(const Vec3d& d) const { return model_->from_sphere(d); }
+double AnyParameterization::solid_angle_density(int chart, double u, double v) const {
+  return model_->solid_angle_density(chart, u, v);
+}
+bool AnyParameterization::valid(int chart, double u, double v) const { return model_->valid(chart, u, v); }
+bool AnyParameterization::covers(const Vec3d& d) const { return model_->covers(d); }
+const Kernels& AnyParameterization::kernels() const { return *model_->kernels; }
+const void* AnyParameterization::self() const { return model_->self(); }
+
+}  // namespace welkin::sphere

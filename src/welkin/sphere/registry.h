@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "welkin/sphere/kernels.h"
+#include "welkin/sphere/parameterization.h"
+
+namespace welkin::sphere {
+
+/// A number that a parameterization can be given: a field of view, a camera distance.
+struct Parameter {
+  std::string name;
+  double value = 0;
+  double lowest = 0;
+  double highest = 0;
+  std::string description;
+};
+
+/// One of the registered parameterizations, chosen by name at run time, with its parameters. Cheap to copy;
+/// never changes; safe from many threads. Double-precision functions are the reference; `kernels` are the
+/// fast ones.
+class AnyParameterization {
+ public:
+  /// By name, with parameters: `latlong`, `fisheye-equidistant,fov=200`. Throws Error: unknown names (the
+  /// nearest is suggested) and values out of range.
+  static AnyParameterization make(std::string_view spec);
+
+  std::string name() const;
+  /// What `make` takes to get this one again: the name and the parameters that aren't at their default.
+  std::string spec() const;
+  std::vector<Parameter> parameters() const;
+
+  int charts() const;
+  double aspect() const;    ///< width / height of a chart with square texels
+  double coverage() const;  ///< sr
+  bool whole_world() const { return coverage() > 4 * kPi * (1 - 1e-9); }
+  bool density_by_row() const;  ///< the density depends on v alone
+
+  // See the concept in parameterization.h.
+  Vec3d to_sphere(int chart, double u, double v) const;
+  ChartPoint<double> from_sphere(const Vec3d& d) const;
+  double solid_angle_density(int chart, double u, double v) const;
+  bool valid(int chart, double u, double v) const;
+  bool covers(const Vec3d& d) const;
+
+  /// The same over arrays of float, for the best instruction set of this processor; `self()` is their first
+  /// argument.
+  const Kernels& kernels() const;
+  const void* self() const;
+
+  friend bool operator==(const AnyParameterization& a, const AnyParameterization& b) {
+    return a.spec() == b.spec();
+  }
+
+  class Model;
+
+ private:
+  explicit AnyParameterization(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+  std::shared_ptr<const Model> model_;
+};
+
+/// Names of all registered parameterizations, in order of registration.
+const std::vector<std::string>& parameterization_names();
+
+}  // namespace welkin::sphere

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "welkin/math/vec.h"
+
+/// The built-in maps, as functions of direction. Rendering one into a picture, with antialiasing, is the map
+/// room's work: these have hard edges, and detail as fine as a sun.
+namespace welkin::synth {
+
+/// Linear sRGB radiance along a unit direction, finite and never negative. May be called from many threads at
+/// once.
+using Radiance = std::function<std::array<float, 3>(const Vec3d& d)>;
+
+/// What the maps can be asked for. Each map reads some of these and leaves the others alone; 0 where it says
+/// so means the map's own default. Angles are in degrees. Azimuth turns about +Y from +Z toward +X, as
+/// positive yaw does; elevation rises from the horizon toward +Y.
+struct SynthOptions {
+  /// lamps: which ones.
+  std::uint64_t seed = 1;
+  /// checker: cells around, an even whole number (0: 36). lines: meridians, a whole number (0: 24).
+  /// zoneplate: cycles per radian at −Z (0: 64). lamps: how many, a whole number up to 1,000,000 (0: 3000).
+  double frequency = 0;
+  /// sun, sky: the sun's angular diameter, for sky 0.01…30 (0: 0.5331). lines: their width (0: 0.5). lamps:
+  /// their diameter, up to 3 (0: 0.5).
+  double angle = 0;
+  /// sun: radiance of the disc (0: 100,000). lamps: their median radiance (0: 50). Others: a factor on all of
+  /// the map (0: 1).
+  double intensity = 0;
+  /// sun, sky: the sun's height, −90…90 for sun and 0…90 for sky.
+  double elevation = 40;
+  /// sun, sky: where the sun stands.
+  double azimuth = 35;
+  /// sun, lamps: radiance of the sky around them; may be 0.
+  double background = 0.1;
+  /// sky: Linke's turbidity, 2 (very clear) to 10 (haze).
+  double turbidity = 3;
+  /// sky: reflectance of the ground, 0…1.
+  double albedo = 0.2;
+};
+
+/// Names of the built-in maps, in the order they are best shown.
+std::vector<std::string> names();
+
+/// One line about a map. Throws Error for a name that names() lacks.
+std::string description(std::string_view name);
+
+/// The map of that name. Throws Error for a name that names() lacks, and for an option that the map reads and
+/// that is out of its range; the message names the map and the option.
+Radiance make(std::string_view name, const SynthOptions& options = {});
+
+}  // namespace welkin::synth

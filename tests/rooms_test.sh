@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Holds the tree to its layout (docs/architecture.md):
+#   - a room of src/welkin includes only itself and rooms before it in the order below;
+#   - no library header includes the command line's libraries, which cost every includer seconds of compile time;
+#   - a source file of over 400 lines says why in its first ten.
+#
+# rooms_test.sh [ROOT]     prints each breach as FILE:LINE: what; fails if there is one.
+set -euo pipefail
+
+rooms=(base math image io sphere synth lobe map prefilter)
+longest_file=400
+
+cd -- "${1:-$(dirname -- "${BASH_SOURCE[0]}")/..}"
+[[ -d src/welkin ]] || { printf '%s has no src/welkin\n' "$PWD" >&2; exit 2; }
+
+breaches=0
+breach() {
+  printf '%s\n' "$*"
+  breaches=$((breaches + 1))
+}
+
+# Prints the place of a room in the order, or nothing.
+place_of() {
+  local i
+  for i in "${!rooms[@]}"; do
+    if [[ ${rooms[i]} == "$1" ]]; then printf '%s' "$i"; fi
+  done
+}
+
+includes() { grep -rnE --include='*.h' --include='*.cpp' "$1" "$2" || true; }
+
+# Every include of a room's files leads to itself or upward.
+checked=0
+for folder in src/welkin/*/; do
+  room=$(basename "$folder")
+  place=$(place_of "$room")
+  if [[ -z $place ]]; then
+    breach "$folder: not in the order of rooms (tests/rooms_test.sh)"
+    continue
+  fi
+  while IFS= read -r hit; do
+    [[ -n $hit ]] || continue
+    checked=$((checked + 1))
+    where=$(cut -d: -f1,2 <<<"$hit")
+    header=$(sed -E 's/^[^"<]*["<]([^">]*)[">].*$/\1/' <<<"$hit")
+    if [[ $header == *..* || $header != welkin/*/* ]]; then
+      breach "$where: \"$header\": name a header of ours as welkin/ROOM/FILE"
+      continue
+    fi
+    used=${header#welkin/}
+    used=${used%%/*}
+    used_place=$(place_of "$used")
+    if [[ -z $used_place ]]; then
+      breach "$where: \"$header\": there is no room '$used'"
+    elif ((used_place > place)); then
+      breach "$where: \"$header\": $room comes before $used and cannot include it"
+    fi
+  done < <(includes '^[[:space:]]*#[[:space:]]*include[[:space:]]*("|<welkin/)' "$folder")
+done
+((checked > 0)) || breach "no include was found to check"
+
+while IFS= read -r hit; do
+  [[ -n $hit ]] || continue
+  [[ ${hit%%:*} == *.h ]] && breach "$(cut -d: -f1,2 <<<"$hit"): belongs in a source file: ${hit#*:*:}"
+done < <(includes '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](CLI11|CLI/|nlohmann/|fmt/)' src/welkin)
+
+while IFS= read -r -d '' file; do
+  lines=$(wc -l <"$file")
+  if ((lines > longest_file)) && ! head -n 10 "$file" | grep -qi "over $longest_file lines because"; then
+    breach "$file:1: $lines lines, and no comment at the top says \"over $longest_file lines because …\""
+  fi
+done < <(find . \( -path ./build -o -path ./.git -o -path ./node_modules \) -prune -o -type f \
+  \( -name '*.h' -o -name '*.cpp' -o -name '*.comp' -o -name '*.glsl' -o -name '*.py' -o -name '*.sh' -o -name dev \) -print0)
+
+if ((breaches > 0)); then
+  printf '%d breaches of the layout\n' "$breaches"
+  exit 1
+fi
+printf '%d includes checked\n' "$checked"
