@@ -6,6 +6,10 @@
 
 function(welkin_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # GCC 12 warns falsely of "literal" + std::string (GCC bug 105329).
+    target_compile_options(${target} PRIVATE -Wno-restrict)
+  endif()
   if(WELKIN_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -13,8 +13,8 @@
 
 namespace welkin::fuzz {
 
-/// Opens the bytes as a file and decodes every channel of every part, if they are of that format by their magic
-/// number. Only Error may come out of the library; anything else is a finding.
+/// Opens the bytes as a file and decodes every channel of every part, if they are of that format by their
+/// magic number. Only Error may come out of the library; anything else is a finding.
 inline void decode_all(std::string_view format, const std::uint8_t* data, std::size_t size) {
   constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
   constexpr std::size_t kMostParts = 4;  // a file of many small parts only costs time

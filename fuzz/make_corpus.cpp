@@ -7,7 +7,8 @@
 #include "welkin/base/error.h"
 #include "welkin/io/image_file.h"
 
-/// Writes small files of every format, type and compression that the library writes: the seeds of the fuzzers.
+/// Writes small files of every format, type and compression that the library writes: the seeds of the
+/// fuzzers.
 ///
 ///     make_corpus FOLDER      makes FOLDER/exr/…, FOLDER/hdr/…
 namespace {
@@ -16,7 +17,7 @@ using namespace welkin;
 namespace fs = std::filesystem;
 
 struct Seeds {
-  std::string folder;     ///< as the fuzzer is called
+  std::string folder;  ///< as the fuzzer is called
   std::string extension;
   std::vector<io::PixelType> types;
   std::vector<std::string> compressions;
@@ -28,13 +29,24 @@ struct Seeds {
 const std::vector<Seeds>& all_seeds() {
   using enum io::PixelType;
   static const std::vector<Seeds> seeds = {
-      {"exr", "exr", {half, float32, uint32}, {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "dwaa"}, {1, 3, 4},
-       {95}, true},
+      {"exr",
+       "exr",
+       {half, float32, uint32},
+       {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "dwaa"},
+       {1, 3, 4},
+       {95},
+       true},
       {"hdr", "hdr", {float32}, {"rle", "none"}, {1, 3}},
       {"pfm", "pfm", {float32}, {"none"}, {1, 3}},
       {"png", "png", {uint8, uint16}, {"zip", "none"}, {1, 2, 3, 4}},
       {"jpeg", "jpg", {uint8}, {""}, {1, 3}, {30, 95}},
-      {"tiff", "tif", {uint8, uint16, uint32, half, float32}, {"none", "zip", "lzw"}, {1, 3, 4, 5}, {95}, true},
+      {"tiff",
+       "tif",
+       {uint8, uint16, uint32, half, float32},
+       {"none", "zip", "lzw"},
+       {1, 3, 4, 5},
+       {95},
+       true},
       {"webp", "webp", {uint8}, {""}, {3, 4}, {50, 100}},
   };
   return seeds;
@@ -46,7 +58,8 @@ Image test_picture(int width, int height, int channels) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int k = 0; k < channels; ++k) {
-        const float ramp = static_cast<float>(x * (k + 1) + y) / static_cast<float>(width * channels + height);
+        const float ramp =
+            static_cast<float>(x * (k + 1) + y) / static_cast<float>(width * channels + height);
         image.at(x, y)[k] = x > width / 2 ? 0.5f : ramp;
       }
     }
@@ -65,7 +78,9 @@ void write_seeds(const fs::path& root, const Seeds& seeds) {
         for (const int quality : seeds.qualities) {
           const Image image = test_picture(17, 9, channels);
           io::WritePart part{"first", image.view(), {names.begin(), names.begin() + channels}};
-          if (channels <= 2) part.channels = channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"Y", "A"};
+          if (channels <= 2)
+            part.channels =
+                channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"Y", "A"};
           std::vector<io::WritePart> parts = {part};
           if (seeds.parts && count % 3 == 0) {
             parts.push_back(part);

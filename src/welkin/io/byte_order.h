@@ -13,7 +13,9 @@ static_assert(std::endian::native == std::endian::little || std::endian::native 
 constexpr std::uint32_t swap_bytes(std::uint32_t x) {
   return x >> 24 | (x >> 8 & 0xff00u) | (x << 8 & 0xff0000u) | x << 24;
 }
-constexpr std::uint16_t swap_bytes(std::uint16_t x) { return static_cast<std::uint16_t>(x << 8 | x >> 8); }
+constexpr std::uint16_t swap_bytes(std::uint16_t x) {
+  return static_cast<std::uint16_t>(x << 8 | x >> 8);
+}
 
 /// A value in the machine's own byte order, at an address of any alignment.
 template <class T>

@@ -13,8 +13,8 @@
 namespace welkin::io {
 namespace {
 
-/// The loop of all types: `value(channel, stored)` converts one value. With kChannels > 0 all channels are wanted, in
-/// order, and the compiler unrolls them.
+/// The loop of all types: `value(channel, stored)` converts one value. With kChannels > 0 all channels are
+/// wanted, in order, and the compiler unrolls them.
 template <class T, int kChannels, class F>
 void convert(const std::byte* stored, std::size_t stored_channels, std::span<const int> channels, int count,
              float* out, std::ptrdiff_t step, F value) {
@@ -46,11 +46,14 @@ void convert(const std::byte* stored, std::size_t stored_channels, std::span<con
 
 std::size_t size_of(PixelType type) {
   switch (type) {
-    case PixelType::uint8: return 1;
+    case PixelType::uint8:
+      return 1;
     case PixelType::uint16:
-    case PixelType::half: return 2;
+    case PixelType::half:
+      return 2;
     case PixelType::uint32:
-    case PixelType::float32: return 4;
+    case PixelType::float32:
+      return 4;
   }
   assert(false);
   return 0;
@@ -64,10 +67,13 @@ std::vector<bool> srgb_channels(std::span<const std::string> names, Colour colou
 }
 
 PixelDecoder::PixelDecoder(PixelType type, std::vector<bool> srgb)
-    : type_(type), srgb_(srgb.begin(), srgb.end()), all_linear_(std::count(srgb.begin(), srgb.end(), true) == 0) {
+    : type_(type),
+      srgb_(srgb.begin(), srgb.end()),
+      all_linear_(std::count(srgb.begin(), srgb.end(), true) == 0) {
   for (const bool encoded : srgb) {
     if (type == PixelType::uint8) tables_.push_back((encoded ? srgb8_to_linear() : unorm8_to_float()).data());
-    if (type == PixelType::uint16) tables_.push_back((encoded ? srgb16_to_linear() : unorm16_to_float()).data());
+    if (type == PixelType::uint16)
+      tables_.push_back((encoded ? srgb16_to_linear() : unorm16_to_float()).data());
   }
 }
 
@@ -79,13 +85,14 @@ void PixelDecoder::decode(const void* stored, std::span<const int> channels, int
     return static_cast<float>(srgb_[channel] != 0 ? srgb_to_linear(value) : value);
   };
   switch (type_) {
-    case PixelType::uint8: return convert<std::uint8_t>(bytes, srgb_.size(), channels, count, out, step, by_table);
-    case PixelType::uint16: return convert<std::uint16_t>(bytes, srgb_.size(), channels, count, out, step, by_table);
+    case PixelType::uint8:
+      return convert<std::uint8_t>(bytes, srgb_.size(), channels, count, out, step, by_table);
+    case PixelType::uint16:
+      return convert<std::uint16_t>(bytes, srgb_.size(), channels, count, out, step, by_table);
     case PixelType::uint32:
-      return convert<std::uint32_t>(bytes, srgb_.size(), channels, count, out, step,
-                                    [&](std::size_t channel, std::uint32_t value) {
-                                      return linear(channel, value / 4294967295.0);
-                                    });
+      return convert<std::uint32_t>(
+          bytes, srgb_.size(), channels, count, out, step,
+          [&](std::size_t channel, std::uint32_t value) { return linear(channel, value / 4294967295.0); });
     case PixelType::half:
       return convert<std::uint16_t>(bytes, srgb_.size(), channels, count, out, step,
                                     [&](std::size_t channel, std::uint16_t value) {
@@ -97,9 +104,9 @@ void PixelDecoder::decode(const void* stored, std::span<const int> channels, int
         return convert<float>(bytes, srgb_.size(), channels, count, out, step,
                               [](std::size_t, float x) { return x; });
       }
-      return convert<float>(bytes, srgb_.size(), channels, count, out, step, [&](std::size_t channel, float x) {
-        return srgb_[channel] != 0 ? linear(channel, x) : x;
-      });
+      return convert<float>(
+          bytes, srgb_.size(), channels, count, out, step,
+          [&](std::size_t channel, float x) { return srgb_[channel] != 0 ? linear(channel, x) : x; });
   }
 }
 

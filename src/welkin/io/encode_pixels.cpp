@@ -48,7 +48,8 @@ std::uint16_t to_half(float x, WriteReport& report) {
 
 /// Every `step`-th value of `in` to every `stored_step`-th of type T.
 template <class T, class F>
-void encode_channel(const float* in, int step, int count, std::byte* stored, std::size_t stored_step, F code_of) {
+void encode_channel(const float* in, int step, int count, std::byte* stored, std::size_t stored_step,
+                    F code_of) {
   for (int i = 0; i < count; ++i, in += step, stored += stored_step) {
     const T code = code_of(*in);
     std::memcpy(stored, &code, sizeof code);
@@ -66,7 +67,9 @@ PixelEncoder::PixelEncoder(PixelType type, std::vector<int> order, std::vector<b
   assert(order_.size() == srgb_.size());
 }
 
-std::size_t PixelEncoder::pixel_bytes() const { return order_.size() * size_of(type_); }
+std::size_t PixelEncoder::pixel_bytes() const {
+  return order_.size() * size_of(type_);
+}
 
 void PixelEncoder::encode(const float* in, int image_channels, int count, std::byte* stored,
                           WriteReport& total) const {
@@ -75,7 +78,8 @@ void PixelEncoder::encode(const float* in, int image_channels, int count, std::b
     const auto own = order_.begin() + static_cast<std::ptrdiff_t>(k);
     WriteReport& report = std::find(order_.begin(), own, *own) == own ? total : uncounted;
     const auto encode_as = [&]<class T>(T, auto code_of) {
-      encode_channel<T>(in + order_[k], image_channels, count, stored + k * sizeof(T), pixel_bytes(), code_of);
+      encode_channel<T>(in + order_[k], image_channels, count, stored + k * sizeof(T), pixel_bytes(),
+                        code_of);
     };
     const bool srgb = srgb_[k];
     switch (type_) {
@@ -85,7 +89,8 @@ void PixelEncoder::encode(const float* in, int image_channels, int count, std::b
             return static_cast<std::uint8_t>(encoder(to_unit_range(x, report)));
           });
         } else {
-          encode_as(std::uint8_t{}, [&](float x) { return quantized<std::uint8_t>(to_unit_range(x, report)); });
+          encode_as(std::uint8_t{},
+                    [&](float x) { return quantized<std::uint8_t>(to_unit_range(x, report)); });
         }
         break;
       case PixelType::uint16:
@@ -94,7 +99,8 @@ void PixelEncoder::encode(const float* in, int image_channels, int count, std::b
             return static_cast<std::uint16_t>(encoder(to_unit_range(x, report)));
           });
         } else {
-          encode_as(std::uint16_t{}, [&](float x) { return quantized<std::uint16_t>(to_unit_range(x, report)); });
+          encode_as(std::uint16_t{},
+                    [&](float x) { return quantized<std::uint16_t>(to_unit_range(x, report)); });
         }
         break;
       case PixelType::uint32:
@@ -104,9 +110,8 @@ void PixelEncoder::encode(const float* in, int image_channels, int count, std::b
         });
         break;
       case PixelType::half:
-        encode_as(std::uint16_t{}, [&](float x) {
-          return to_half(srgb ? static_cast<float>(linear_to_srgb(x)) : x, report);
-        });
+        encode_as(std::uint16_t{},
+                  [&](float x) { return to_half(srgb ? static_cast<float>(linear_to_srgb(x)) : x, report); });
         break;
       case PixelType::float32:
         encode_as(float{}, [&](float x) { return srgb ? static_cast<float>(linear_to_srgb(x)) : x; });
@@ -115,12 +120,14 @@ void PixelEncoder::encode(const float* in, int image_channels, int count, std::b
   }
 }
 
-WriteReport PixelEncoder::encode_rows(ImageView<const float> image, std::byte* stored, std::size_t stride) const {
+WriteReport PixelEncoder::encode_rows(ImageView<const float> image, std::byte* stored,
+                                      std::size_t stride) const {
   return tbb::parallel_reduce(
       tbb::blocked_range<int>(0, image.height, 8), WriteReport{},
       [&](const tbb::blocked_range<int>& rows, WriteReport report) {
         for (int y = rows.begin(); y < rows.end(); ++y) {
-          encode(image.row(y), image.channels, image.width, stored + static_cast<std::size_t>(y) * stride, report);
+          encode(image.row(y), image.channels, image.width, stored + static_cast<std::size_t>(y) * stride,
+                 report);
         }
         return report;
       },

@@ -61,7 +61,8 @@ const Format& format_for_writing(const std::filesystem::path& path) {
     if (std::count(format.extensions.begin(), format.extensions.end(), extension) > 0) return format;
   }
   if (extension.empty()) {
-    throw Error("the name has no extension to tell the format by (one of: " + listed(writable_extensions()) + ")");
+    throw Error("the name has no extension to tell the format by (one of: " + listed(writable_extensions()) +
+                ")");
   }
   throw Error(unknown_name("extension", extension, writable_extensions()));
 }
@@ -70,11 +71,16 @@ const Format& format_for_writing(const std::filesystem::path& path) {
 
 std::string_view name_of(PixelType type) {
   switch (type) {
-    case PixelType::uint8: return "uint8";
-    case PixelType::uint16: return "uint16";
-    case PixelType::uint32: return "uint32";
-    case PixelType::half: return "half";
-    case PixelType::float32: return "float";
+    case PixelType::uint8:
+      return "uint8";
+    case PixelType::uint16:
+      return "uint16";
+    case PixelType::uint32:
+      return "uint32";
+    case PixelType::half:
+      return "half";
+    case PixelType::float32:
+      return "float";
   }
   assert(false);
   return {};
@@ -89,7 +95,8 @@ const std::vector<Format>& formats() {
 std::vector<std::string> writable_extensions() {
   std::vector<std::string> names;
   for (const Format& format : formats()) {
-    if (format.write != nullptr) names.insert(names.end(), format.extensions.begin(), format.extensions.end());
+    if (format.write != nullptr)
+      names.insert(names.end(), format.extensions.begin(), format.extensions.end());
   }
   return names;
 }
@@ -97,19 +104,21 @@ std::vector<std::string> writable_extensions() {
 void check_size(const Source& source, std::uint64_t width, std::uint64_t height, std::uint64_t channels) {
   constexpr std::uint64_t kLongestSide = std::uint64_t{1} << 20;
   const auto size = [&] {
-    return std::to_string(width) + "×" + std::to_string(height) + " with " + std::to_string(channels) + " channels";
+    return std::to_string(width) + "×" + std::to_string(height) + " with " + std::to_string(channels) +
+           " channels";
   };
   if (width < 1 || width > kLongestSide || height < 1 || height > kLongestSide || channels < 1) {
-    throw Error(source.name + ": an image of " + size() + " is out of range (1…" + std::to_string(kLongestSide) +
-                " a side)");
+    throw Error(source.name + ": an image of " + size() + " is out of range (1…" +
+                std::to_string(kLongestSide) + " a side)");
   }
   // width·height is at most 2^40, so the comparison by division cannot overflow.
   const std::uint64_t most_values = source.options.max_bytes / sizeof(float);
   if (channels > most_values / (width * height)) {
-    const long double bytes = sizeof(float) * static_cast<long double>(width * height) *
-                              static_cast<long double>(channels);
+    const long double bytes =
+        sizeof(float) * static_cast<long double>(width * height) * static_cast<long double>(channels);
     throw Error(source.name + ": an image of " + size() + " needs " + gibibytes(bytes) +
-                " as floats, over the limit of " + gibibytes(static_cast<long double>(source.options.max_bytes)));
+                " as floats, over the limit of " +
+                gibibytes(static_cast<long double>(source.options.max_bytes)));
   }
 }
 
@@ -130,7 +139,8 @@ std::unique_ptr<Reader> open(const std::filesystem::path& path, const ReadOption
   return std::make_unique<FileReader>(std::move(file), std::move(reader));
 }
 
-WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts, const WriteOptions& options) {
+WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
+                  const WriteOptions& options) {
   assert(!parts.empty());
   for ([[maybe_unused]] const WritePart& part : parts) {
     assert(part.image.data != nullptr && part.image.width > 0 && part.image.height > 0);

@@ -62,8 +62,9 @@ TEST(Formats, UppercaseExtensionsAreTheSame) {
 TEST(Formats, UnknownFilesAreExplained) {
   EXPECT_EQ(error_of([] { open(Bytes{}, "a.hdr"); }), "a.hdr: the file is empty");
   const std::string message = error_of([] { open(bytes_of("GIF89a\1"), "a.gif"); });
-  EXPECT_NE(message.find("a.gif: not an image of a known format: begins with 'GIF89a.' (47 49 46 38 39 61 01)"),
-            std::string::npos)
+  EXPECT_NE(
+      message.find("a.gif: not an image of a known format: begins with 'GIF89a.' (47 49 46 38 39 61 01)"),
+      std::string::npos)
       << message;
   EXPECT_NE(message.find("exr, hdr, pfm, png, jpeg, tiff, webp"), std::string::npos) << message;
   const TemporaryFolder folder;
@@ -78,7 +79,8 @@ TEST(Formats, UnknownExtensionsAreExplained) {
   const auto message_for = [&](const std::string& name) {
     return error_of([&] { write(folder / name, {&part, 1}); });
   };
-  EXPECT_NE(message_for("a.hdrr").find("a.hdrr: unknown extension 'hdrr'; did you mean 'hdr'?"), std::string::npos);
+  EXPECT_NE(message_for("a.hdrr").find("a.hdrr: unknown extension 'hdrr'; did you mean 'hdr'?"),
+            std::string::npos);
   EXPECT_NE(message_for("a").find("a: the name has no extension"), std::string::npos);
   EXPECT_EQ(folder.entries(), 0);
 }
@@ -173,7 +175,8 @@ TEST(Formats, AnyChannelsInAnyOrderIntoAnyStride) {
     const Bytes bytes = encoded(extension, noise(9, 5, 3));
     const auto reader = open(bytes, extension);
     const Image whole = read_part(*reader);
-    for (const auto& channels : {std::vector{2, 0}, std::vector{1}, std::vector{2, 1, 0}, std::vector{0, 0, 1, 2}}) {
+    for (const auto& channels :
+         {std::vector{2, 0}, std::vector{1}, std::vector{2, 1, 0}, std::vector{0, 0, 1, 2}}) {
       const int count = static_cast<int>(channels.size());
       Image wide(20, 8, count);
       reader->read(0, channels, wide.view().part(3, 2, 9, 5));
@@ -210,7 +213,7 @@ TEST(Formats, WritersFindChannelsByName) {
 
 TEST(Formats, IntegerFormatsCountWhatTheyClip) {
   Image image(4, 1, 3);
-  const float values[12] = {0,    1,    0.5f, 2, 3e38f, -0.5f, -0.0f, INFINITY, -INFINITY, NAN, 1, 0};
+  const float values[12] = {0, 1, 0.5f, 2, 3e38f, -0.5f, -0.0f, INFINITY, -INFINITY, NAN, 1, 0};
   std::copy(values, values + 12, image.at(0, 0));
   for (const std::string extension : {"png", "jpg", "webp"}) {
     WriteReport report;

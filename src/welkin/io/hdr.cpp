@@ -37,8 +37,9 @@ class HdrReader : public Reader {
     const std::uint64_t least =
         static_cast<std::uint64_t>(header_.lines()) * least_hdr_line_bytes(header_.line_length());
     if (held < least) {
-      throw Error(source.name + ": ends early (byte " + std::to_string(source.bytes.size()) + "): " +
-                  std::to_string(header_.lines()) + " scan lines need at least " + std::to_string(least) + " bytes");
+      throw Error(source.name + ": ends early (byte " + std::to_string(source.bytes.size()) +
+                  "): " + std::to_string(header_.lines()) + " scan lines need at least " +
+                  std::to_string(least) + " bytes");
     }
     HdrCoding coding;
     line_end(0, header_.pixels_at, coding);
@@ -50,12 +51,17 @@ class HdrReader : public Reader {
     info_.notes = header_.notes;
     info_.notes.push_back("RGBE: 8-bit mantissas with a shared exponent");
     if (header_.xyze) {
-      info_.notes.push_back("XYZE, converted to linear RGB of sRGB primaries and white; Y=1 is kept as white of 1");
+      info_.notes.push_back(
+          "XYZE, converted to linear RGB of sRGB primaries and white; Y=1 is kept as white of 1");
     }
     for (int k = 0; k < 3; ++k) divisor_[k] = static_cast<float>(header_.divisor[k]);
     divided_ = std::any_of(divisor_, divisor_ + 3, [](float d) { return d != 1; });
     if (divided_) info_.notes.push_back("divided by the EXPOSURE and COLORCORR of its header");
-    info_.parts.push_back({"", header_.width, header_.height, {"R", "G", "B"}, PixelType::float32,
+    info_.parts.push_back({"",
+                           header_.width,
+                           header_.height,
+                           {"R", "G", "B"},
+                           PixelType::float32,
                            coding == HdrCoding::flat ? "none" : "rle"});
   }
 
@@ -69,8 +75,8 @@ class HdrReader : public Reader {
       throw Error(source_.name + ": scan line " + std::to_string(line) + ": " + error.what());
     }
   }
-  void decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb, const PixelDecoder& decoder,
-                   std::span<const int> channels, ImageView<float> out) const;
+  void decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb,
+                   const PixelDecoder& decoder, std::span<const int> channels, ImageView<float> out) const;
 
   Source source_;
   HdrHeader header_;
@@ -80,7 +86,8 @@ class HdrReader : public Reader {
 
 /// One scan line to where it belongs in `out`. The common one, an upright row of R G B, goes there directly.
 void HdrReader::decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb,
-                            const PixelDecoder& decoder, std::span<const int> channels, ImageView<float> out) const {
+                            const PixelDecoder& decoder, std::span<const int> channels,
+                            ImageView<float> out) const {
   const int length = header_.line_length();
   decode_hdr_line(source_.bytes.data() + stored.at, stored.coding, planes);
 
@@ -133,7 +140,8 @@ void HdrReader::read(std::size_t part, std::span<const int> channels, ImageView<
     HdrPlanes planes(length);
     std::vector<float> rgb(3 * static_cast<std::size_t>(length));
     for (std::size_t k = 0; k < batch.lines.size(); ++k) {
-      decode_line(batch.lines[k], batch.first + static_cast<int>(k), planes, rgb.data(), decoder, channels, out);
+      decode_line(batch.lines[k], batch.first + static_cast<int>(k), planes, rgb.data(), decoder, channels,
+                  out);
     }
   };
   tbb::parallel_pipeline(static_cast<std::size_t>(4 * tbb::this_task_arena::max_concurrency()),
@@ -141,10 +149,14 @@ void HdrReader::read(std::size_t part, std::span<const int> channels, ImageView<
                              tbb::make_filter<Batch, void>(tbb::filter_mode::parallel, decode_lines));
 }
 
-std::unique_ptr<Reader> open_hdr(const Source& source) { return std::make_unique<HdrReader>(source); }
+std::unique_ptr<Reader> open_hdr(const Source& source) {
+  return std::make_unique<HdrReader>(source);
+}
 
 }  // namespace
 
-Format hdr_format() { return {"hdr", {"hdr"}, matches, open_hdr, write_hdr}; }
+Format hdr_format() {
+  return {"hdr", {"hdr"}, matches, open_hdr, write_hdr};
+}
 
 }  // namespace welkin::io

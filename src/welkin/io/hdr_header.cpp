@@ -63,7 +63,9 @@ void parse_line(const Source& source, const std::string& line, HdrHeader& header
 
 /// `-Y 512 +X 1024`: the first axis is that of the scan lines' order.
 void parse_resolution(const Source& source, const std::string& line, HdrHeader& header) {
-  const auto fail = [&] { throw Error(source.name + ": the resolution line '" + line.substr(0, 80) + "' is malformed"); };
+  const auto fail = [&] {
+    throw Error(source.name + ": the resolution line '" + line.substr(0, 80) + "' is malformed");
+  };
   std::istringstream stream(line);
   std::string axis[2];
   std::string digits[2];

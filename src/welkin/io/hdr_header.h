@@ -9,14 +9,16 @@
 
 namespace welkin::io {
 
-/// The text at the head of a Radiance picture (Ward, "Radiance File Formats", 1997) and the order of its pixels.
+/// The text at the head of a Radiance picture (Ward, "Radiance File Formats", 1997) and the order of its
+/// pixels.
 ///
 /// EXPOSURE and COLORCORR are multipliers that were applied to the pixels; each may stand many times and they
 /// multiply up. Radiance is the stored value divided by them.
 struct HdrHeader {
   bool xyze = false;
   double divisor[3] = {1, 1, 1};  ///< EXPOSURE·COLORCORR of R, G, B
-  std::map<std::string, std::string> attributes;  ///< all lines but FORMAT; those that are not name=value under `history`
+  std::map<std::string, std::string>
+      attributes;  ///< all lines but FORMAT; those that are not name=value under `history`
   std::vector<std::string> notes;
 
   int width = 0;

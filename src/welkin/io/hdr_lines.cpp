@@ -18,7 +18,9 @@ bool may_be_components(int length) {
   return length >= kShortestComponentLine && length <= kLongestComponentLine;
 }
 
-[[noreturn]] void ends_early(std::size_t at) { throw Error("ends early (byte " + std::to_string(at) + ")"); }
+[[noreturn]] void ends_early(std::size_t at) {
+  throw Error("ends early (byte " + std::to_string(at) + ")");
+}
 
 [[noreturn]] void overruns(std::size_t at) {
   throw Error("a run passes the end of the line (byte " + std::to_string(at) + ")");
@@ -28,8 +30,8 @@ std::size_t components_end(std::span<const std::byte> bytes, std::size_t at, int
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   const int stored = data[at + 2] << 8 | data[at + 3];
   if (stored != length) {
-    throw Error("its length is given as " + std::to_string(stored) + ", not " + std::to_string(length) + " (byte " +
-                std::to_string(at) + ")");
+    throw Error("its length is given as " + std::to_string(stored) + ", not " + std::to_string(length) +
+                " (byte " + std::to_string(at) + ")");
   }
   at += 4;
   for (int component = 0; component < 4; ++component) {
@@ -48,7 +50,9 @@ std::size_t components_end(std::span<const std::byte> bytes, std::size_t at, int
   return at;
 }
 
-bool is_old_run(const std::uint8_t* pixel) { return pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1; }
+bool is_old_run(const std::uint8_t* pixel) {
+  return pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1;
+}
 
 std::size_t flat_end(std::span<const std::byte> bytes, std::size_t at, int length, HdrCoding& coding) {
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
@@ -118,7 +122,8 @@ void decode_hdr_line(const std::byte* line, HdrCoding coding, HdrPlanes& planes)
   std::uint8_t* const out[4] = {planes[0], planes[1], planes[2], planes[3]};
   if (coding == HdrCoding::flat) {
     for (int i = 0; i < length; ++i) {
-      for (int k = 0; k < 4; ++k) out[k][i] = data[4 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)];
+      for (int k = 0; k < 4; ++k)
+        out[k][i] = data[4 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)];
     }
     return;
   }

@@ -9,17 +9,18 @@ namespace welkin::io {
 
 /// How one scan line of a Radiance picture is stored. Which it is shows in its first bytes.
 enum class HdrCoding {
-  flat,       ///< four bytes a pixel
-  old_runs,   ///< flat, but a pixel (1, 1, 1, n) repeats the one before n times; a second in a row n·256 times more…
+  flat,      ///< four bytes a pixel
+  old_runs,  ///< flat, but a pixel (1, 1, 1, n) repeats the one before n times; a second in a row n·256 times
+             ///< more…
   components  ///< 2 2 length, then each component run-length coded by itself; only lengths of 8…32767
 };
 
 inline constexpr int kShortestComponentLine = 8;
 inline constexpr int kLongestComponentLine = 32767;
 
-/// Where a scan line of `length` pixels starting at `at` ends, reading only its run codes, never its pixels, so this
-/// is a small fraction of decoding; `coding` says what it was. Everything is checked: decode_hdr_line trusts it.
-/// Throws Error without the file's name or the line: `ends early (byte N)`.
+/// Where a scan line of `length` pixels starting at `at` ends, reading only its run codes, never its pixels,
+/// so this is a small fraction of decoding; `coding` says what it was. Everything is checked: decode_hdr_line
+/// trusts it. Throws Error without the file's name or the line: `ends early (byte N)`.
 std::size_t hdr_line_end(std::span<const std::byte> bytes, std::size_t at, int length, HdrCoding& coding);
 
 /// The fewest bytes that could hold such a scan line: one pixel, then runs.
@@ -30,7 +31,9 @@ class HdrPlanes {
  public:
   explicit HdrPlanes(int length) : length_(length), bytes_(4 * static_cast<std::size_t>(length)) {}
   int length() const { return length_; }
-  std::uint8_t* operator[](int k) { return bytes_.data() + static_cast<std::size_t>(k) * static_cast<std::size_t>(length_); }
+  std::uint8_t* operator[](int k) {
+    return bytes_.data() + static_cast<std::size_t>(k) * static_cast<std::size_t>(length_);
+  }
 
  private:
   int length_;

@@ -15,7 +15,9 @@ Bytes picture(const std::string& lines, const std::string& resolution, const std
 }
 
 /// Red of (x, y) of an image whose pixels were stored as mantissa m, exponent 136: value m.
-int value_at(const Image& image, int x, int y) { return static_cast<int>(image.at(x, y)[0]); }
+int value_at(const Image& image, int x, int y) {
+  return static_cast<int>(image.at(x, y)[0]);
+}
 
 TEST(Rgbe, ValueIsMantissaTimesPowerOfTwo) {
   for (int e = 0; e < 256; ++e) {
@@ -23,7 +25,8 @@ TEST(Rgbe, ValueIsMantissaTimesPowerOfTwo) {
     const std::uint8_t mantissas[3] = {255, 1, 0};
     float rgb[3];
     decode_rgbe(&mantissas[0], &mantissas[1], &mantissas[2], &exponent, 1, rgb);
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(rgb[k], e == 0 ? 0 : std::ldexp(static_cast<float>(mantissas[k]), e - 136));
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(rgb[k], e == 0 ? 0 : std::ldexp(static_cast<float>(mantissas[k]), e - 136));
   }
 }
 
@@ -41,7 +44,8 @@ TEST(Rgbe, EveryNormalisedPixelComesBack) {
   }
 }
 
-// The largest mantissa is at least 128 and each is rounded to nearest: half a unit is at most 1/256 of the largest.
+// The largest mantissa is at least 128 and each is rounded to nearest: half a unit is at most 1/256 of the
+// largest.
 TEST(Rgbe, ErrorIsAtMostOnePartIn256OfTheLargestComponent) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> exponent(-120, 126);
@@ -63,10 +67,10 @@ TEST(Hdr, EightOrientationsAreTurnedUpright) {
     const char* resolution;
     std::vector<int> order;  // of the upright pixels 0 1 2 / 3 4 5
   };
-  const std::vector<Case> cases = {
-      {"-Y 2 +X 3", {0, 1, 2, 3, 4, 5}}, {"-Y 2 -X 3", {2, 1, 0, 5, 4, 3}}, {"+Y 2 +X 3", {3, 4, 5, 0, 1, 2}},
-      {"+Y 2 -X 3", {5, 4, 3, 2, 1, 0}}, {"+X 3 -Y 2", {0, 3, 1, 4, 2, 5}}, {"+X 3 +Y 2", {3, 0, 4, 1, 5, 2}},
-      {"-X 3 -Y 2", {2, 5, 1, 4, 0, 3}}, {"-X 3 +Y 2", {5, 2, 4, 1, 3, 0}}};
+  const std::vector<Case> cases = {{"-Y 2 +X 3", {0, 1, 2, 3, 4, 5}}, {"-Y 2 -X 3", {2, 1, 0, 5, 4, 3}},
+                                   {"+Y 2 +X 3", {3, 4, 5, 0, 1, 2}}, {"+Y 2 -X 3", {5, 4, 3, 2, 1, 0}},
+                                   {"+X 3 -Y 2", {0, 3, 1, 4, 2, 5}}, {"+X 3 +Y 2", {3, 0, 4, 1, 5, 2}},
+                                   {"-X 3 -Y 2", {2, 5, 1, 4, 0, 3}}, {"-X 3 +Y 2", {5, 2, 4, 1, 3, 0}}};
   for (const Case& each : cases) {
     std::vector<int> pixels;
     for (const int k : each.order) pixels.insert(pixels.end(), {k + 10, k + 20, 200, 136});
@@ -90,8 +94,8 @@ TEST(Hdr, EightOrientationsAreTurnedUpright) {
 
 TEST(Hdr, OldRunsRepeatThePixelBefore) {
   // 7, 7·2 more, 9, then 1 + 1·256 more in two run pixels: 3 + 1 + 257 = 261 pixels.
-  const Bytes bytes = picture("", "-Y 1 +X 261",
-                              {7, 200, 0, 136, 1, 1, 1, 2, 9, 200, 0, 136, 1, 1, 1, 1, 1, 1, 1, 1});
+  const Bytes bytes =
+      picture("", "-Y 1 +X 261", {7, 200, 0, 136, 1, 1, 1, 2, 9, 200, 0, 136, 1, 1, 1, 1, 1, 1, 1, 1});
   const Image image = decoded(bytes);
   EXPECT_EQ(info_of(bytes).parts[0].compression, "rle");
   for (int x = 0; x < 261; ++x) EXPECT_EQ(value_at(image, x, 0), x < 3 ? 7 : 9);
@@ -105,16 +109,17 @@ TEST(Hdr, OldRunsAreChecked) {
   };
   EXPECT_NE(message({1, 1, 1, 9, 1, 1, 1, 1}).find("begins with a run"), std::string::npos);
   EXPECT_NE(message({7, 7, 7, 136, 1, 1, 1, 9}).find("a run passes the end of the line"), std::string::npos);
-  const std::vector<int> zeros = {7, 7, 7, 136, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 8};
+  const std::vector<int> zeros = {7, 7, 7, 136, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1,
+                                  1, 0, 1, 1,   1, 0, 1, 1, 1, 0, 1, 1, 1, 8};
   EXPECT_NE(message(zeros).find("a run passes the end of the line"), std::string::npos);
 }
 
 TEST(Hdr, ComponentRunsAreDecodedOneComponentAfterTheOther) {
-  const std::vector<int> line = {2, 2, 0, 9,                               // nine pixels
-                                 3, 10, 11, 12, 128 + 6, 13,               // red: 10 11 12 and six 13s
-                                 128 + 9, 50,                              // green
-                                 9, 1, 2, 3, 4, 5, 6, 7, 8, 9,             // blue
-                                 128 + 8, 136, 1, 137};                    // exponent
+  const std::vector<int> line = {2,       2,   0,  9,                            // nine pixels
+                                 3,       10,  11, 12, 128 + 6, 13,              // red: 10 11 12 and six 13s
+                                 128 + 9, 50,                                    // green
+                                 9,       1,   2,  3,  4,       5,  6, 7, 8, 9,  // blue
+                                 128 + 8, 136, 1,  137};                         // exponent
   const Bytes bytes = picture("", "-Y 1 +X 9", line);
   const Image image = decoded(bytes);
   for (int x = 0; x < 9; ++x) {
@@ -133,12 +138,14 @@ TEST(Hdr, ComponentRunsAreChecked) {
   };
   EXPECT_EQ(message({2, 2, 0, 8, 137, 1, 137, 1}),
             "test: scan line 0: its length is given as 8, not 9 (byte 45)");
-  EXPECT_NE(message({2, 2, 0, 9, 138, 1, 137, 1}).find("a run passes the end of the line (byte 49)"), std::string::npos);
+  EXPECT_NE(message({2, 2, 0, 9, 138, 1, 137, 1}).find("a run passes the end of the line (byte 49)"),
+            std::string::npos);
   EXPECT_NE(message({2, 2, 0, 9, 0, 1, 137, 1}).find("a literal of length 0 (byte 49)"), std::string::npos);
 }
 
 TEST(Hdr, HeaderVariablesBecomeAttributes) {
-  const Bytes bytes = picture("SOFTWARE=test 1.0\n# a remark\nrpict -vp 0 0 0\n", "-Y 1 +X 1", {128, 128, 128, 129});
+  const Bytes bytes =
+      picture("SOFTWARE=test 1.0\n# a remark\nrpict -vp 0 0 0\n", "-Y 1 +X 1", {128, 128, 128, 129});
   const FileInfo info = info_of(bytes);
   EXPECT_EQ(info.attributes.at("SOFTWARE"), "test 1.0");
   EXPECT_EQ(info.attributes.at("history"), "# a remark\nrpict -vp 0 0 0");
@@ -148,12 +155,14 @@ TEST(Hdr, HeaderVariablesBecomeAttributes) {
 }
 
 TEST(Hdr, ExposuresMultiplyUpAndAreDividedOut) {
-  const Bytes bytes = picture("EXPOSURE=2\nCOLORCORR=1 4 0.5\nEXPOSURE= 4.0\n", "-Y 1 +X 1", {128, 128, 128, 136});
+  const Bytes bytes =
+      picture("EXPOSURE=2\nCOLORCORR=1 4 0.5\nEXPOSURE= 4.0\n", "-Y 1 +X 1", {128, 128, 128, 136});
   const Image image = decoded(bytes);
   EXPECT_EQ(image.at(0, 0)[0], 16.0f);
   EXPECT_EQ(image.at(0, 0)[1], 4.0f);
   EXPECT_EQ(image.at(0, 0)[2], 32.0f);
-  for (const char* unusable : {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=x\n", "EXPOSURE=nan\n", "COLORCORR=1 1\n"}) {
+  for (const char* unusable :
+       {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=x\n", "EXPOSURE=nan\n", "COLORCORR=1 1\n"}) {
     const Bytes odd = picture(unusable, "-Y 1 +X 1", {128, 128, 128, 136});
     EXPECT_EQ(decoded(odd).at(0, 0)[0], 128.0f) << unusable;
     EXPECT_NE(info_of(odd).notes.at(0).find("is ignored"), std::string::npos) << unusable;
@@ -186,7 +195,7 @@ TEST(Hdr, WrittenFilesComeBackToHalfAUnit) {
   for (const int width : {1, 7, 8, 9, 127, 128, 129, 300, 32767, 32768}) {
     Image image = noise(width, 3, 3);
     for (int i = 0; i < 3 * width; ++i) {
-      image.at(0, 0)[i] = 0.5f;                       // one long run
+      image.at(0, 0)[i] = 0.5f;                              // one long run
       image.at(0, 1)[i] = (i / 15) % 2 == 0 ? 1.0f : 0.25f;  // runs of five
     }
     for (const char* compression : {"", "none"}) {
@@ -238,9 +247,11 @@ TEST(Hdr, WhatCannotBeStoredIsCounted) {
 
 TEST(Hdr, AttributesAreWrittenExceptThoseOfOtherPixels) {
   WriteOptions options;
-  options.attributes = {{"SOFTWARE", "two\nlines"}, {"EXPOSURE", "4"}, {"FORMAT", "x"}, {"history", "made\n\nby hand"}};
+  options.attributes = {
+      {"SOFTWARE", "two\nlines"}, {"EXPOSURE", "4"}, {"FORMAT", "x"}, {"history", "made\n\nby hand"}};
   const FileInfo info = info_of(encoded("hdr", noise(2, 2, 3), options));
-  const std::map<std::string, std::string> expected = {{"SOFTWARE", "two lines"}, {"history", "made\nby hand"}};
+  const std::map<std::string, std::string> expected = {{"SOFTWARE", "two lines"},
+                                                       {"history", "made\nby hand"}};
   EXPECT_EQ(info.attributes, expected);
   options.attributes = {{"a=b", "c"}};
   EXPECT_THROW(encoded("hdr", noise(2, 2, 3), options), Error);

@@ -73,13 +73,16 @@ WriteReport write_hdr(OutputFile& file, std::span<const WritePart> parts, const 
   static constexpr PixelType types[] = {PixelType::float32};
   const WritePart& part = only_part(parts, "HDR");
   pixel_type(options, types, "HDR");
-  const HdrCoding coding = compression(options, known, "HDR") == "none" ? HdrCoding::flat : HdrCoding::components;
+  const HdrCoding coding =
+      compression(options, known, "HDR") == "none" ? HdrCoding::flat : HdrCoding::components;
   const RowEncoder encoder(part, coding, options.colour == Colour::srgb);
 
   auto attributes = options.attributes;
-  for (const char* of_the_pixels : {"EXPOSURE", "COLORCORR", "FORMAT", "PIXASPECT"}) attributes.erase(of_the_pixels);
-  const std::string header = "#?RADIANCE\n" + attribute_lines(attributes, "history") + "FORMAT=32-bit_rle_rgbe\n\n-Y " +
-                             std::to_string(part.image.height) + " +X " + std::to_string(part.image.width) + "\n";
+  for (const char* of_the_pixels : {"EXPOSURE", "COLORCORR", "FORMAT", "PIXASPECT"})
+    attributes.erase(of_the_pixels);
+  const std::string header = "#?RADIANCE\n" + attribute_lines(attributes, "history") +
+                             "FORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(part.image.height) + " +X " +
+                             std::to_string(part.image.width) + "\n";
   file.write(header.data(), header.size());
 
   constexpr int kPixelsOfBatch = 1 << 15;

@@ -4,9 +4,10 @@
 
 namespace welkin::io {
 
-/// Writes RGBE, run-length coded by components (compression `rle`) or flat (`none`, and always at widths that the
-/// coding cannot have), rounded to nearest. Grey is stored three times. Values are radiance, so EXPOSURE, COLORCORR,
-/// FORMAT and PIXASPECT of the attributes, which describe the pixels of another file, are left out.
+/// Writes RGBE, run-length coded by components (compression `rle`) or flat (`none`, and always at widths that
+/// the coding cannot have), rounded to nearest. Grey is stored three times. Values are radiance, so EXPOSURE,
+/// COLORCORR, FORMAT and PIXASPECT of the attributes, which describe the pixels of another file, are left
+/// out.
 WriteReport write_hdr(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
 
 }  // namespace welkin::io

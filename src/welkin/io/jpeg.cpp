@@ -55,7 +55,10 @@ class Decoder {
     input_.term_source = [](j_decompress_ptr) {};
     input_.resync_to_restart = jpeg_resync_to_restart;
     // The whole file is in the buffer, so whoever asks for more has met its end.
-    input_.fill_input_buffer = [](j_decompress_ptr codec) -> boolean { ERREXIT(codec, JERR_INPUT_EOF); return FALSE; };
+    input_.fill_input_buffer = [](j_decompress_ptr codec) -> boolean {
+      ERREXIT(codec, JERR_INPUT_EOF);
+      return FALSE;
+    };
     input_.skip_input_data = [](j_decompress_ptr codec, long count) {
       if (count <= 0) return;
       if (static_cast<std::size_t>(count) > codec->src->bytes_in_buffer) ERREXIT(codec, JERR_INPUT_EOF);
@@ -80,15 +83,18 @@ class Decoder {
       case JWRN_ADOBE_XFORM:
       case JWRN_BOGUS_ICC:
       case JWRN_EXTRANEOUS_DATA:
-      case JWRN_JFIF_MAJOR: return;
-      default: fail_jpeg(codec);
+      case JWRN_JFIF_MAJOR:
+        return;
+      default:
+        fail_jpeg(codec);
     }
   }
 
   /// Each scan of a progressive file costs a pass over the whole picture, and may hold next to no bytes.
   static void limit_scans(j_common_ptr codec) {
     constexpr int kMostScans = 500;
-    if (codec->is_decompressor == TRUE && reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number > kMostScans) {
+    if (codec->is_decompressor == TRUE &&
+        reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number > kMostScans) {
       ERREXIT(codec, JERR_BAD_PROGRESSION);
     }
   }
@@ -107,11 +113,16 @@ class JpegReader : public Reader {
     const jpeg_decompress_struct& codec = decoder.codec();
     std::vector<std::string> channels;
     switch (codec.jpeg_color_space) {
-      case JCS_GRAYSCALE: channels = {"Y"}; break;
+      case JCS_GRAYSCALE:
+        channels = {"Y"};
+        break;
       case JCS_RGB:
-      case JCS_YCbCr: channels = {"R", "G", "B"}; break;
+      case JCS_YCbCr:
+        channels = {"R", "G", "B"};
+        break;
       case JCS_CMYK:
-      case JCS_YCCK: throw Error(source_.name + ": a CMYK picture; save it as RGB");
+      case JCS_YCCK:
+        throw Error(source_.name + ": a CMYK picture; save it as RGB");
       default:
         throw Error(source_.name + ": a JPEG of " + std::to_string(codec.num_components) +
                     " components of unknown meaning");
@@ -180,8 +191,12 @@ class JpegReader : public Reader {
 
 }  // namespace
 
-std::unique_ptr<Reader> open_jpeg(const Source& source) { return std::make_unique<JpegReader>(source); }
+std::unique_ptr<Reader> open_jpeg(const Source& source) {
+  return std::make_unique<JpegReader>(source);
+}
 
-Format jpeg_format() { return {"jpeg", {"jpg", "jpeg"}, matches, open_jpeg, write_jpeg}; }
+Format jpeg_format() {
+  return {"jpeg", {"jpg", "jpeg"}, matches, open_jpeg, write_jpeg};
+}
 
 }  // namespace welkin::io

@@ -10,8 +10,8 @@
 
 namespace welkin::io {
 
-/// libjpeg's error manager, which leaves a failing function by longjmp (skipping C++ destructors) after keeping the
-/// text.
+/// libjpeg's error manager, which leaves a failing function by longjmp (skipping C++ destructors) after
+/// keeping the text.
 struct JpegFailure {
   jpeg_error_mgr manager;
   jmp_buf jump;
@@ -27,8 +27,8 @@ struct JpegFailure {
   std::longjmp(failure->jump, 1);
 }
 
-/// Calls libjpeg inside `call`; false if it failed. `call` must hold no object with a destructor: it may be left
-/// halfway.
+/// Calls libjpeg inside `call`; false if it failed. `call` must hold no object with a destructor: it may be
+/// left halfway.
 template <class Call>
 bool guarded_jpeg(JpegFailure& failure, Call call) {
   if (setjmp(failure.jump) != 0) return false;

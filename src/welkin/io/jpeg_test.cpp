@@ -52,7 +52,8 @@ Bytes by_libjpeg(J_COLOR_SPACE space, int components, bool progressive) {
   if (progressive) jpeg_simple_progression(&codec);
   jpeg_start_compress(&codec, TRUE);
   for (int y = 0; y < 20; ++y) {
-    std::vector<unsigned char> row(static_cast<std::size_t>(20 * components), static_cast<unsigned char>(10 * y));
+    std::vector<unsigned char> row(static_cast<std::size_t>(20 * components),
+                                   static_cast<unsigned char>(10 * y));
     auto* start = row.data();
     jpeg_write_scanlines(&codec, &start, 1);
   }
@@ -87,7 +88,8 @@ TEST(Jpeg, QualityIsObeyed) {
 
 TEST(Jpeg, ColourIsAtFullResolution) {
   const Bytes bytes = encoded("jpg", noise(20, 20, 3));
-  // The frame header: ff c0, length, precision, height, width, count, then per component: id, sampling, table.
+  // The frame header: ff c0, length, precision, height, width, count, then per component: id, sampling,
+  // table.
   std::size_t at = 0;
   while (at + 19 < bytes.size() && !(bytes[at] == std::byte{0xff} && bytes[at + 1] == std::byte{0xc0})) ++at;
   ASSERT_LT(at + 19, bytes.size());
@@ -104,10 +106,13 @@ TEST(Jpeg, ProgressiveIsRead) {
 }
 
 TEST(Jpeg, CmykIsRefusedClearly) {
-  EXPECT_EQ(error_of([] { info_of(by_libjpeg(JCS_CMYK, 4, false)); }), "test: a CMYK picture; save it as RGB");
+  EXPECT_EQ(error_of([] { info_of(by_libjpeg(JCS_CMYK, 4, false)); }),
+            "test: a CMYK picture; save it as RGB");
 }
 
-TEST(Jpeg, TruncationIsAnError) { expect_truncation_is_an_error(encoded("jpg", noise(20, 9, 3))); }
+TEST(Jpeg, TruncationIsAnError) {
+  expect_truncation_is_an_error(encoded("jpg", noise(20, 9, 3)));
+}
 
 TEST(Jpeg, AttributesAreACommentOfLines) {
   WriteOptions options;
@@ -119,8 +124,9 @@ TEST(Jpeg, AttributesAreACommentOfLines) {
 
 TEST(Jpeg, TooLargeIsRefusedClearly) {
   const Image image(65501, 1, 1);
-  EXPECT_NE(error_of([&] { encoded("jpg", image); }).find("too large for JPEG, whose sides are at most 65500"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of([&] { encoded("jpg", image); }).find("too large for JPEG, whose sides are at most 65500"),
+      std::string::npos);
 }
 
 /// An Exif block of one entry, of tag 0x0112, in little-endian order.

@@ -102,8 +102,8 @@ WriteReport write_jpeg(OutputFile& file, std::span<const WritePart> parts, const
   const std::string comment = attribute_lines(options.attributes, "comment");
   if (comment.size() > kLongestComment) throw Error("the attributes are too long for a JPEG comment");
   const ImageView<const float> image = part.image;
-  const PixelEncoder pixels(type, order,
-                            std::vector<bool>(order.size(), colour_for(type, options.colour) == Colour::srgb));
+  const PixelEncoder pixels(
+      type, order, std::vector<bool>(order.size(), colour_for(type, options.colour) == Colour::srgb));
 
   Encoder encoder(file);
   encoder.create();

@@ -17,9 +17,13 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-void put(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+void put(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
-void write_text(OutputFile& file, const std::string& text) { file.write(text.data(), text.size()); }
+void write_text(OutputFile& file, const std::string& text) {
+  file.write(text.data(), text.size());
+}
 
 void commit_text(const fs::path& path, const std::string& text) {
   OutputFile file(path);
@@ -156,7 +160,8 @@ TEST(OutputFile, TooManyAtOnceIsAnErrorAndTheyAreReusable) {
   for (int round = 0; round < 2; ++round) {
     std::vector<std::unique_ptr<OutputFile>> files;
     const std::string message = error_of([&] {
-      for (int i = 0; i < 1000; ++i) files.push_back(std::make_unique<OutputFile>(folder / std::to_string(i)));
+      for (int i = 0; i < 1000; ++i)
+        files.push_back(std::make_unique<OutputFile>(folder / std::to_string(i)));
     });
     EXPECT_EQ(files.size(), 256u) << message;
   }

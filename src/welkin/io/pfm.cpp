@@ -15,18 +15,20 @@
 #include "welkin/io/format.h"
 #include "welkin/io/write_choices.h"
 
-/// Portable float maps: `PF` or `Pf`, width, height, a scale factor, one white space, then rows of floats from the
-/// bottom to the top. A negative scale means little-endian.
+/// Portable float maps: `PF` or `Pf`, width, height, a scale factor, one white space, then rows of floats
+/// from the bottom to the top. A negative scale means little-endian.
 ///
-/// The scale's absolute value states the unit of the samples (pfm(5) of Netpbm: with a separately known unit it gives
-/// them a physical meaning); it is not a multiplier of the picture, and most writers put an arbitrary 1 there. So it
-/// is kept as the attribute `pfm:scale`, and pixels are what the file holds.
+/// The scale's absolute value states the unit of the samples (pfm(5) of Netpbm: with a separately known unit
+/// it gives them a physical meaning); it is not a multiplier of the picture, and most writers put an
+/// arbitrary 1 there. So it is kept as the attribute `pfm:scale`, and pixels are what the file holds.
 namespace welkin::io {
 namespace {
 
 const std::string kScaleName = "pfm:scale";
 
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_space(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
 
 bool matches(std::span<const std::byte> bytes) {
   if (bytes.size() < 3) return false;
@@ -42,7 +44,8 @@ class PfmReader : public Reader {
     const std::uint64_t height = next_size("height");
     const std::string scale_text = next_word();
     const double scale = std::strtod(scale_text.c_str(), nullptr);
-    if (scale == 0 || !std::isfinite(scale)) fail("the scale '" + scale_text + "' is not a number other than 0");
+    if (scale == 0 || !std::isfinite(scale))
+      fail("the scale '" + scale_text + "' is not a number other than 0");
     order_ = scale < 0 ? std::endian::little : std::endian::big;
     skip_one_space();
 
@@ -62,11 +65,13 @@ class PfmReader : public Reader {
     info_.colour = source.options.colour == Colour::srgb ? Colour::srgb : Colour::linear;
     if (std::fabs(scale) != 1) {
       info_.attributes[kScaleName] = scale_text.substr(scale_text.find_first_not_of("+-"));
-      info_.notes.push_back("its scale of " + info_.attributes[kScaleName] + " is a unit and multiplies no pixel");
+      info_.notes.push_back("its scale of " + info_.attributes[kScaleName] +
+                            " is a unit and multiplies no pixel");
     }
     if (order_ == std::endian::big) info_.notes.push_back("big-endian");
     if (held > needed) info_.notes.push_back(std::to_string(held - needed) + " bytes follow the pixels");
-    info_.parts.push_back({"", static_cast<int>(width), static_cast<int>(height), channels, PixelType::float32, "none"});
+    info_.parts.push_back(
+        {"", static_cast<int>(width), static_cast<int>(height), channels, PixelType::float32, "none"});
   }
 
   void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
@@ -75,11 +80,13 @@ class PfmReader : public Reader {
     static_cast<void>(part);
     const PixelDecoder decoder(PixelType::float32, srgb_channels(info_.parts[0].channels, info_.colour));
     const bool whole = channels.size() == info_.parts[0].channels.size() && info_.colour == Colour::linear &&
-                       std::is_sorted(channels.begin(), channels.end()) && channels.back() + 1 == out.channels;
+                       std::is_sorted(channels.begin(), channels.end()) &&
+                       channels.back() + 1 == out.channels;
     tbb::parallel_for(tbb::blocked_range<int>(0, out.height, 16), [&](const tbb::blocked_range<int>& rows) {
       std::vector<std::uint32_t> swapped(order_ == std::endian::native ? 0 : row_bytes_ / sizeof(float));
       for (int y = rows.begin(); y < rows.end(); ++y) {
-        const void* row = source_.bytes.data() + at_ + static_cast<std::size_t>(out.height - 1 - y) * row_bytes_;
+        const void* row =
+            source_.bytes.data() + at_ + static_cast<std::size_t>(out.height - 1 - y) * row_bytes_;
         if (order_ != std::endian::native) {
           std::memcpy(swapped.data(), row, row_bytes_);
           for (std::uint32_t& value : swapped) value = swap_bytes(value);
@@ -104,7 +111,8 @@ class PfmReader : public Reader {
     while (at_ < size && is_space(text[at_])) ++at_;
     const std::size_t first = at_;
     while (at_ < size && !is_space(text[at_]) && at_ - first < kLongestWord) ++at_;
-    if (at_ == size || !is_space(text[at_])) fail("the header is malformed (byte " + std::to_string(at_) + ")");
+    if (at_ == size || !is_space(text[at_]))
+      fail("the header is malformed (byte " + std::to_string(at_) + ")");
     return {text + first, text + at_};
   }
 
@@ -131,7 +139,9 @@ class PfmReader : public Reader {
   std::endian order_ = std::endian::little;
 };
 
-std::unique_ptr<Reader> open_pfm(const Source& source) { return std::make_unique<PfmReader>(source); }
+std::unique_ptr<Reader> open_pfm(const Source& source) {
+  return std::make_unique<PfmReader>(source);
+}
 
 /// The scale that the picture was read with, if it is still a number, for the unit it states.
 std::string scale_of(const WriteOptions& options) {
@@ -154,8 +164,9 @@ WriteReport write_pfm(OutputFile& file, std::span<const WritePart> parts, const 
   const std::vector<int> order = channel_order(part, Alpha::none, "PFM");
   const ImageView<const float> image = part.image;
 
-  const std::string header = std::string(order.size() == 1 ? "Pf" : "PF") + "\n" + std::to_string(image.width) + " " +
-                             std::to_string(image.height) + "\n-" + scale_of(options) + "\n";
+  const std::string header = std::string(order.size() == 1 ? "Pf" : "PF") + "\n" +
+                             std::to_string(image.width) + " " + std::to_string(image.height) + "\n-" +
+                             scale_of(options) + "\n";
   file.write(header.data(), header.size());
 
   const PixelEncoder encoder(PixelType::float32, order,
@@ -182,6 +193,8 @@ WriteReport write_pfm(OutputFile& file, std::span<const WritePart> parts, const 
 
 }  // namespace
 
-Format pfm_format() { return {"pfm", {"pfm"}, matches, open_pfm, write_pfm}; }
+Format pfm_format() {
+  return {"pfm", {"pfm"}, matches, open_pfm, write_pfm};
+}
 
 }  // namespace welkin::io

@@ -67,7 +67,8 @@ TEST(Pfm, SrgbIsUndoneWhenAskedFor) {
   WriteOptions writing;
   writing.colour = Colour::srgb;
   const Image image = noise(9, 5, 3);
-  // Two roundings to float of values below 1, the first steepened by up to 2.4/1.055; and the knee's step of 3e-8.
+  // Two roundings to float of values below 1, the first steepened by up to 2.4/1.055; and the knee's step of
+  // 3e-8.
   EXPECT_LE(largest_difference(decoded(encoded("pfm", image, writing), reading), image), 3e-7f);
 }
 
@@ -82,10 +83,11 @@ TEST(Pfm, LengthMustFit) {
 }
 
 TEST(Pfm, MalformedHeadersAreErrors) {
-  for (const char* text : {"PF\n", "PF\n1", "PF\n1 1\n", "PF\n1 1\n1", "PF\n1 1\n0\n............", "PF\n1 1\nx\n............",
-                           "PF\n1 1\nnan\n............", "PF\n-1 1\n1\n............", "PF\n0 1\n1\n............",
-                           "PF\n99999999999999999999 1\n1\n............", "PF\n1048576 1048576\n1\n............",
-                           "PF\n4294967297 1\n1\n............"}) {
+  for (const char* text :
+       {"PF\n", "PF\n1", "PF\n1 1\n", "PF\n1 1\n1", "PF\n1 1\n0\n............", "PF\n1 1\nx\n............",
+        "PF\n1 1\nnan\n............", "PF\n-1 1\n1\n............", "PF\n0 1\n1\n............",
+        "PF\n99999999999999999999 1\n1\n............", "PF\n1048576 1048576\n1\n............",
+        "PF\n4294967297 1\n1\n............"}) {
     EXPECT_THROW(decoded(bytes_of(text)), Error) << text;
   }
 }

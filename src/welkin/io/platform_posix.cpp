@@ -28,9 +28,13 @@ static_assert(sizeof(off_t) == 8, "files over 2 GiB need 64-bit offsets");
 /// A pipe has no length, so one that never ends is refused here.
 constexpr std::size_t kLongestPipe = std::size_t{8} << 30;
 
-std::string reason(int error) { return std::generic_category().message(error); }
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
 
-[[noreturn]] void fail() { throw Error(reason(errno)); }
+[[noreturn]] void fail() {
+  throw Error(reason(errno));
+}
 
 class Descriptor {
  public:
@@ -94,7 +98,8 @@ class Registration {
   Slot* slot_ = nullptr;
 };
 
-/// Where the bytes must finally go: the path with symbolic links followed, even one whose target does not exist yet.
+/// Where the bytes must finally go: the path with symbolic links followed, even one whose target does not
+/// exist yet.
 fs::path follow_links(fs::path path) {
   constexpr int kMostLinks = 40;
   for (int i = 0; i < kMostLinks; ++i) {
@@ -129,8 +134,8 @@ int open_spool() {
 
 }  // namespace
 
-/// A regular target is written beside itself and renamed. A device or a pipe cannot be replaced, so its bytes are
-/// spooled, which lets every format seek, and copied to it by `commit`.
+/// A regular target is written beside itself and renamed. A device or a pipe cannot be replaced, so its bytes
+/// are spooled, which lets every format seek, and copied to it by `commit`.
 struct OutputFile::State {
   fs::path target;
   fs::path temporary;  ///< empty for a spool
@@ -183,9 +188,13 @@ OutputFile::OutputFile(const fs::path& path) : state_(std::make_unique<State>())
   }
 }
 
-OutputFile::~OutputFile() { state_->discard(); }
+OutputFile::~OutputFile() {
+  state_->discard();
+}
 
-void OutputFile::write(std::span<const std::byte> bytes) { write(bytes.data(), bytes.size()); }
+void OutputFile::write(std::span<const std::byte> bytes) {
+  write(bytes.data(), bytes.size());
+}
 
 void OutputFile::write(const void* data, std::size_t size) {
   State& state = *state_;
@@ -205,7 +214,8 @@ std::size_t OutputFile::read_at(std::uint64_t offset, void* data, std::size_t si
   auto* bytes = static_cast<char*>(data);
   std::size_t done = 0;
   while (done < size) {
-    const ssize_t got = ::pread(state_->file->number(), bytes + done, size - done, static_cast<off_t>(offset + done));
+    const ssize_t got =
+        ::pread(state_->file->number(), bytes + done, size - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail();
     if (got == 0) break;
@@ -214,9 +224,15 @@ std::size_t OutputFile::read_at(std::uint64_t offset, void* data, std::size_t si
   return done;
 }
 
-void OutputFile::seek(std::uint64_t offset) { state_->position = offset; }
-std::uint64_t OutputFile::tell() const { return state_->position; }
-std::uint64_t OutputFile::size() const { return state_->size; }
+void OutputFile::seek(std::uint64_t offset) {
+  state_->position = offset;
+}
+std::uint64_t OutputFile::tell() const {
+  return state_->position;
+}
+std::uint64_t OutputFile::size() const {
+  return state_->size;
+}
 
 void OutputFile::commit() {
   State& state = *state_;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "welkin/base/error.h"
+#include "welkin/io/byte_order.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/png_guard.h"
 
@@ -17,8 +18,29 @@ constexpr unsigned char kSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, 
 /// Deflate cannot compress better (zlib's technical details: 1032:1).
 constexpr std::uint64_t kBestDeflateRatio = 1032;
 
+/// Text and profiles may claim, or expand to, any size: together they get 1 GiB at most.
+constexpr png_alloc_size_t kMostOfChunk = png_alloc_size_t{8} << 20;
+constexpr png_uint_32 kMostChunksKept = 128;
+
 bool matches(std::span<const std::byte> bytes) {
   return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
+}
+
+/// Throws unless whole chunks, as their lengths say, lead to an IEND. libpng would first make room for a
+/// chunk of any length and then miss its bytes.
+void check_chunks(const Source& source) {
+  constexpr std::size_t kAround = 12;  // length, name and checksum
+  const auto fail = [&](const char* cause, std::size_t at) {
+    throw Error(source.name + ": " + cause + " (byte " + std::to_string(at) + ")");
+  };
+  for (std::size_t at = sizeof kSignature;;) {
+    const std::size_t left = source.bytes.size() - at;
+    if (left < kAround) fail("ends early", source.bytes.size());
+    const std::size_t length = load<std::uint32_t>(&source.bytes[at], std::endian::big);
+    if (length > left - kAround) fail("ends early: a chunk passes the end of the file", at);
+    if (std::memcmp(&source.bytes[at + 4], "IEND", 4) == 0) return;
+    at += kAround + length;
+  }
 }
 
 /// tEXt is Latin-1; attributes are UTF-8.
@@ -64,11 +86,13 @@ class Decoder {
     throw Error(source_.name + ": " + failure_.text + " (byte " + std::to_string(at_) + ")");
   }
 
-  /// Palettes, fewer than 8 bits and tRNS become plain channels. Afterwards png_get_* tell of what rows will hold.
+  /// Palettes, fewer than 8 bits and tRNS become plain channels. Afterwards png_get_* tell of what rows will
+  /// hold.
   void expand() {
     guarded([this] {
       png_set_expand(png_);
-      if (std::endian::native == std::endian::little && png_get_bit_depth(png_, info_) == 16) png_set_swap(png_);
+      if (std::endian::native == std::endian::little && png_get_bit_depth(png_, info_) == 16)
+        png_set_swap(png_);
       png_set_interlace_handling(png_);
       png_read_update_info(png_, info_);
     });
@@ -78,6 +102,8 @@ class Decoder {
   void read_header() {
     png_set_read_fn(png_, this, read_bytes);
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size is the limit
+    png_set_chunk_malloc_max(png_, kMostOfChunk);
+    png_set_chunk_cache_max(png_, kMostChunksKept);
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS, reinterpret_cast<png_const_bytep>("cICP"), 1);
     png_read_info(png_, info_);
   }
@@ -107,6 +133,7 @@ std::string names_of_colour_type(int colour_type) {
 class PngReader : public Reader {
  public:
   explicit PngReader(const Source& source) : source_(source) {
+    check_chunks(source_);
     Decoder decoder(source_);
     const png_structp png = decoder.png();
     const png_infop info = decoder.info();
@@ -122,7 +149,8 @@ class PngReader : public Reader {
     const int depth = png_get_bit_depth(png, info);
     const int colour_type = png_get_color_type(png, info);
     if (depth < 8 || colour_type == PNG_COLOR_TYPE_PALETTE) {
-      info_.notes.push_back("expanded from " + std::to_string(depth) + "-bit " + names_of_colour_type(colour_type));
+      info_.notes.push_back("expanded from " + std::to_string(depth) + "-bit " +
+                            names_of_colour_type(colour_type));
     }
     interlaced_ = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
     if (interlaced_) info_.notes.push_back("interlaced");
@@ -130,11 +158,13 @@ class PngReader : public Reader {
     read_text(png, info);
 
     decoder.expand();
-    static const std::vector<std::string> names[] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+    static const std::vector<std::string> names[] = {
+        {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
     const int channels = png_get_channels(png, info);
     check_size(source_, width, height, static_cast<std::uint64_t>(channels));
     info_.parts.push_back({"", static_cast<int>(width), static_cast<int>(height), names[channels - 1],
-                           png_get_bit_depth(png, info) == 16 ? PixelType::uint16 : PixelType::uint8, "deflate"});
+                           png_get_bit_depth(png, info) == 16 ? PixelType::uint16 : PixelType::uint8,
+                           "deflate"});
   }
 
   void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
@@ -216,10 +246,10 @@ class PngReader : public Reader {
     const int count = png_get_text(png, info, &texts, nullptr);
     for (int i = 0; i < count; ++i) {
       const bool utf8 = texts[i].compression >= PNG_ITXT_COMPRESSION_NONE;
-      const std::string_view value = texts[i].text == nullptr
-                                         ? std::string_view()
-                                         : std::string_view(texts[i].text, utf8 ? texts[i].itxt_length
-                                                                                : texts[i].text_length);
+      const std::string_view value =
+          texts[i].text == nullptr
+              ? std::string_view()
+              : std::string_view(texts[i].text, utf8 ? texts[i].itxt_length : texts[i].text_length);
       info_.attributes.emplace(from_latin1(texts[i].key), utf8 ? std::string(value) : from_latin1(value));
     }
   }
@@ -230,8 +260,12 @@ class PngReader : public Reader {
 
 }  // namespace
 
-std::unique_ptr<Reader> open_png(const Source& source) { return std::make_unique<PngReader>(source); }
+std::unique_ptr<Reader> open_png(const Source& source) {
+  return std::make_unique<PngReader>(source);
+}
 
-Format png_format() { return {"png", {"png"}, matches, open_png, write_png}; }
+Format png_format() {
+  return {"png", {"png"}, matches, open_png, write_png};
+}
 
 }  // namespace welkin::io

@@ -7,7 +7,8 @@
 
 namespace welkin::io {
 
-/// The text of libpng's last error. libpng leaves a failing function by longjmp, which would skip C++ destructors.
+/// The text of libpng's last error. libpng leaves a failing function by longjmp, which would skip C++
+/// destructors.
 struct PngFailure {
   char text[200] = {};
 };
@@ -21,8 +22,8 @@ inline void fail_png(png_structp png, png_const_charp text) {
 
 inline void ignore_png_warning(png_structp, png_const_charp) {}
 
-/// Calls libpng inside `call`; false if it failed. `call` must hold no object with a destructor: it may be left
-/// halfway.
+/// Calls libpng inside `call`; false if it failed. `call` must hold no object with a destructor: it may be
+/// left halfway.
 template <class Call>
 bool guarded_png(png_structp png, Call call) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;

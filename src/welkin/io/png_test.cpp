@@ -29,8 +29,8 @@ std::string chunk(const std::string& name, const std::string& data) {
 }
 
 /// A PNG made by hand: `rows` are filtered rows, `extra` the chunks before the pixels.
-Bytes picture(int width, int height, int depth, int colour_type, const Values& rows, const std::string& extra = "",
-              bool interlaced = false) {
+Bytes picture(int width, int height, int depth, int colour_type, const Values& rows,
+              const std::string& extra = "", bool interlaced = false) {
   const std::string raw = text_of(rows);
   std::string packed(compressBound(static_cast<uLong>(raw.size())), 0);
   auto packed_size = static_cast<uLongf>(packed.size());
@@ -40,12 +40,15 @@ Bytes picture(int width, int height, int depth, int colour_type, const Values& r
   const std::string header = big_endian(static_cast<std::size_t>(width)) +
                              big_endian(static_cast<std::size_t>(height)) +
                              text_of({depth, colour_type, 0, 0, interlaced ? 1 : 0});
-  return bytes_of("\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + extra + chunk("IDAT", packed) + chunk("IEND", ""));
+  return bytes_of("\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + extra + chunk("IDAT", packed) +
+                  chunk("IEND", ""));
 }
 
 constexpr int kGrey = 0, kColour = 2, kPalette = 3, kGreyAlpha = 4, kColourAlpha = 6;
 
-float linear8(int k) { return static_cast<float>(srgb_to_linear(k / 255.0)); }
+float linear8(int k) {
+  return static_cast<float>(srgb_to_linear(k / 255.0));
+}
 
 TEST(Png, EveryTypeAndChannelCountComesBackExactly) {
   for (const PixelType type : {PixelType::uint8, PixelType::uint16}) {
@@ -93,8 +96,9 @@ TEST(Png, SixteenBitValuesAreBigEndian) {
 }
 
 TEST(Png, PaletteWithTransparencyIsExpanded) {
-  const Bytes bytes = picture(3, 1, 2, kPalette, {0, 0b00011000},
-                              chunk("PLTE", text_of({255, 0, 0, 0, 255, 0, 0, 0, 255})) + chunk("tRNS", text_of({0, 51})));
+  const Bytes bytes =
+      picture(3, 1, 2, kPalette, {0, 0b00011000},
+              chunk("PLTE", text_of({255, 0, 0, 0, 255, 0, 0, 0, 255})) + chunk("tRNS", text_of({0, 51})));
   const Image image = decoded(bytes);
   ASSERT_EQ(image.channels(), 4);
   const float expected[12] = {1, 0, 0, 0, 0, 1, 0, 0.2f, 0, 0, 1, 1};
@@ -166,7 +170,7 @@ TEST(Png, TruncationIsAnError) {
     const Bytes bytes = picture(1, 1, 8, kGrey, {0, 1});
     decoded(Bytes(bytes.begin(), bytes.begin() + 50));
   });
-  EXPECT_EQ(message, "test: ends early (byte 50)");
+  EXPECT_EQ(message, "test: ends early: a chunk passes the end of the file (byte 33)");
 }
 
 TEST(Png, WrongChecksumIsAnError) {

@@ -17,7 +17,9 @@ SrgbEncoder::SrgbEncoder(int levels) : straight_(static_cast<float>(12.92 * leve
 
   // The inverse finds each threshold to a few units in the last place; the formula itself then decides.
   const float infinity = std::numeric_limits<float>::infinity();
-  const auto reaches = [&](float x, int code) { return std::floor(levels * linear_to_srgb(x) + 0.5) >= code; };
+  const auto reaches = [&](float x, int code) {
+    return std::floor(levels * linear_to_srgb(x) + 0.5) >= code;
+  };
   thresholds_.resize(static_cast<std::size_t>(levels) + 2);
   thresholds_.front() = -infinity;
   thresholds_.back() = infinity;

@@ -7,16 +7,21 @@
 namespace welkin::io {
 namespace {
 
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
 
 bool is_name(std::string_view text) {
   if (text.empty() || !is_letter(text.front()) || text.back() == ' ') return false;
   return std::all_of(text.begin(), text.end(), [](char c) {
-    return is_letter(c) || (c >= '0' && c <= '9') || std::string_view("_.:/- ").find(c) != std::string_view::npos;
+    return is_letter(c) || (c >= '0' && c <= '9') ||
+           std::string_view("_.:/- ").find(c) != std::string_view::npos;
   });
 }
 
-bool is_control(char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 32 || c == 127;
+}
 
 }  // namespace
 

@@ -108,9 +108,8 @@ class TiffReader : public Reader {
         const auto plane = static_cast<std::size_t>(channels[k]);
         ImageView<float> target = out;
         target.data += k;
-        read_blocks(page, channels[k], [&](const Block& block) {
-          place(page, block, {srgb[plane]}, std::array{0}, target);
-        });
+        read_blocks(page, channels[k],
+                    [&](const Block& block) { place(page, block, {srgb[plane]}, std::array{0}, target); });
       }
     } else {
       read_blocks(page, 0, [&](const Block& block) { place(page, block, srgb, channels, out); });
@@ -159,7 +158,8 @@ class TiffReader : public Reader {
     const auto sample = static_cast<std::uint16_t>(plane);
     tmsize_t got = 0;
     if (page.tiled) {
-      got = TIFFReadEncodedTile(tiff_.get(), TIFFComputeTile(tiff_.get(), x, y, 0, sample), samples.data(), size);
+      got = TIFFReadEncodedTile(tiff_.get(), TIFFComputeTile(tiff_.get(), x, y, 0, sample), samples.data(),
+                                size);
     } else {
       got = TIFFReadEncodedStrip(tiff_.get(), TIFFComputeStrip(tiff_.get(), y, sample), samples.data(), size);
     }
@@ -171,13 +171,14 @@ class TiffReader : public Reader {
   }
 
   static std::size_t stored_pixel_bytes(const TiffPage& page) {
-    const std::size_t value = page.decoding == TiffDecoding::doubles ? sizeof(double) : size_of(page.part.type);
+    const std::size_t value =
+        page.decoding == TiffDecoding::doubles ? sizeof(double) : size_of(page.part.type);
     return page.planar ? value : value * static_cast<std::size_t>(page.stored_samples);
   }
 
   /// A block's rows to their place, the pixels of each having srgb.size() samples.
-  static void place(const TiffPage& page, const Block& block, std::vector<bool> srgb, std::span<const int> channels,
-                    ImageView<float> out) {
+  static void place(const TiffPage& page, const Block& block, std::vector<bool> srgb,
+                    std::span<const int> channels, ImageView<float> out) {
     const std::size_t values = static_cast<std::size_t>(block.width) * srgb.size();
     const PixelDecoder decoder(page.part.type, std::move(srgb));
     const auto place_row = [&](int y, std::vector<float>& floats) {
@@ -202,20 +203,25 @@ class TiffReader : public Reader {
     };
     // A thread is worth starting for tens of thousands of values.
     constexpr std::size_t kValuesOfTask = 1 << 15;
-    const int grain = static_cast<int>(kValuesOfTask / values + 1);
-    tbb::parallel_for(tbb::blocked_range<int>(0, block.height, grain), [&](const tbb::blocked_range<int>& rows) {
-      std::vector<float> floats;
-      for (int y = rows.begin(); y < rows.end(); ++y) place_row(y, floats);
-    });
+    const std::size_t grain = kValuesOfTask / values + 1;
+    tbb::parallel_for(tbb::blocked_range<int>(0, block.height, grain),
+                      [&](const tbb::blocked_range<int>& rows) {
+                        std::vector<float> floats;
+                        for (int y = rows.begin(); y < rows.end(); ++y) place_row(y, floats);
+                      });
   }
 
-  void read_rgba(const TiffPage& page, std::vector<bool> srgb, std::span<const int> channels, ImageView<float> out) {
-    // libtiff packs R in the lowest byte. Asking for the file's own orientation leaves rows and columns as stored.
-    std::vector<std::uint32_t> raster(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
+  void read_rgba(const TiffPage& page, std::vector<bool> srgb, std::span<const int> channels,
+                 ImageView<float> out) {
+    // libtiff packs R in the lowest byte. Asking for the file's own orientation leaves rows and columns as
+    // stored.
+    std::vector<std::uint32_t> raster(static_cast<std::size_t>(out.width) *
+                                      static_cast<std::size_t>(out.height));
     std::uint16_t orientation = ORIENTATION_TOPLEFT;
     TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_ORIENTATION, &orientation);
     if (TIFFReadRGBAImageOriented(tiff_.get(), static_cast<std::uint32_t>(out.width),
-                                  static_cast<std::uint32_t>(out.height), raster.data(), orientation, 1) == 0) {
+                                  static_cast<std::uint32_t>(out.height), raster.data(), orientation,
+                                  1) == 0) {
       fail("libtiff cannot convert the picture to RGB");
     }
     if constexpr (std::endian::native == std::endian::big) {
@@ -223,8 +229,8 @@ class TiffReader : public Reader {
     }
     srgb.resize(4, false);
     PixelDecoder(page.part.type, std::move(srgb))
-        .decode_rows(reinterpret_cast<const std::byte*>(raster.data()), static_cast<std::size_t>(out.width) * 4,
-                     channels, out);
+        .decode_rows(reinterpret_cast<const std::byte*>(raster.data()),
+                     static_cast<std::size_t>(out.width) * 4, channels, out);
   }
 
   Source source_;
@@ -236,8 +242,12 @@ class TiffReader : public Reader {
 
 }  // namespace
 
-std::unique_ptr<Reader> open_tiff(const Source& source) { return std::make_unique<TiffReader>(source); }
+std::unique_ptr<Reader> open_tiff(const Source& source) {
+  return std::make_unique<TiffReader>(source);
+}
 
-Format tiff_format() { return {"tiff", {"tif", "tiff"}, matches, open_tiff, write_tiff}; }
+Format tiff_format() {
+  return {"tiff", {"tif", "tiff"}, matches, open_tiff, write_tiff};
+}
 
 }  // namespace welkin::io

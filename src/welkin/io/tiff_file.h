@@ -23,8 +23,10 @@ struct TiffFailure {
     auto& failure = *static_cast<TiffFailure*>(self);
     if (failure.text[0] != 0) return 1;
     // Some modules are functions of libtiff, some the name that the file was opened by.
-    const int used = module == nullptr ? 0 : std::snprintf(failure.text, sizeof failure.text / 3, "%.90s: ", module);
-    std::vsnprintf(failure.text + used, sizeof failure.text - static_cast<std::size_t>(used), format, arguments);
+    const int used =
+        module == nullptr ? 0 : std::snprintf(failure.text, sizeof failure.text / 3, "%.90s: ", module);
+    std::vsnprintf(failure.text + used, sizeof failure.text - static_cast<std::size_t>(used), format,
+                   arguments);
     return 1;
   }
   static int ignore(TIFF*, void*, const char*, const char*, va_list) { return 1; }
@@ -45,19 +47,20 @@ struct CloseTiff {
 };
 using TiffHandle = std::unique_ptr<TIFF, CloseTiff>;
 
-/// No allocation of libtiff's own passes `most_memory` bytes. Null when libtiff cannot open it; `failure`, which must outlive the handle, then says why.
+/// No allocation of libtiff's own passes `most_memory` bytes. Null when libtiff cannot open it; `failure`,
+/// which must outlive the handle, then says why.
 inline TiffHandle open_tiff_stream(const TiffStream& stream, const char* mode, std::uint64_t most_memory,
                                    TiffFailure& failure) {
   const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
-                                                                              TIFFOpenOptionsFree);
+                                                                             TIFFOpenOptionsFree);
   if (options == nullptr) throw std::bad_alloc();
   constexpr std::uint64_t kMost = std::numeric_limits<tmsize_t>::max();
   TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(std::min(most_memory, kMost)));
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), TiffFailure::keep, &failure);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), TiffFailure::ignore, nullptr);
   return TiffHandle(TIFFClientOpenExt(
-      "TIFF", mode, stream.handle, stream.read, stream.write, stream.seek, [](thandle_t) { return 0; }, stream.size,
-      stream.map, [](thandle_t, void*, toff_t) {}, options.get()));
+      "TIFF", mode, stream.handle, stream.read, stream.write, stream.seek, [](thandle_t) { return 0; },
+      stream.size, stream.map, [](thandle_t, void*, toff_t) {}, options.get()));
 }
 
 }  // namespace welkin::io

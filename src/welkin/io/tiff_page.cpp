@@ -24,12 +24,18 @@ struct Compression {
   std::uint64_t best_ratio;  ///< uncompressed bytes per byte at most; 0: no useful bound
 };
 constexpr Compression kCompressions[] = {
-    {COMPRESSION_NONE, "none", 1},          {COMPRESSION_LZW, "lzw", 4096},
-    {COMPRESSION_ADOBE_DEFLATE, "zip", 1032}, {COMPRESSION_DEFLATE, "zip", 1032},
-    {COMPRESSION_PACKBITS, "packbits", 64}, {COMPRESSION_JPEG, "jpeg", 0},
-    {COMPRESSION_LZMA, "lzma", 0},          {COMPRESSION_ZSTD, "zstd", 0},
-    {COMPRESSION_WEBP, "webp", 0},          {COMPRESSION_LERC, "lerc", 0},
-    {COMPRESSION_SGILOG, "sgilog", 0},      {COMPRESSION_SGILOG24, "sgilog24", 0},
+    {COMPRESSION_NONE, "none", 1},
+    {COMPRESSION_LZW, "lzw", 4096},
+    {COMPRESSION_ADOBE_DEFLATE, "zip", 1032},
+    {COMPRESSION_DEFLATE, "zip", 1032},
+    {COMPRESSION_PACKBITS, "packbits", 64},
+    {COMPRESSION_JPEG, "jpeg", 0},
+    {COMPRESSION_LZMA, "lzma", 0},
+    {COMPRESSION_ZSTD, "zstd", 0},
+    {COMPRESSION_WEBP, "webp", 0},
+    {COMPRESSION_LERC, "lerc", 0},
+    {COMPRESSION_SGILOG, "sgilog", 0},
+    {COMPRESSION_SGILOG24, "sgilog24", 0},
 };
 
 const Compression* find_compression(int code) {
@@ -71,7 +77,8 @@ std::vector<std::string> names_of_samples(TIFF* tiff, int photometric, int sampl
     std::vector<std::string> names = split(said->second);
     page.attributes.erase(said);
     const std::set<std::string> distinct(names.begin(), names.end());
-    if (static_cast<int>(names.size()) == samples && distinct.size() == names.size() && distinct.count("") == 0) {
+    if (static_cast<int>(names.size()) == samples && distinct.size() == names.size() &&
+        distinct.count("") == 0) {
       return names;
     }
   }
@@ -94,10 +101,14 @@ std::vector<std::string> names_of_samples(TIFF* tiff, int photometric, int sampl
 }
 
 void read_text(TIFF* tiff, TiffPage& page) {
-  constexpr std::pair<std::uint32_t, const char*> kTags[] = {
-      {TIFFTAG_ARTIST, "Artist"},     {TIFFTAG_COPYRIGHT, "Copyright"},       {TIFFTAG_DATETIME, "DateTime"},
-      {TIFFTAG_MAKE, "Make"},         {TIFFTAG_MODEL, "Model"},               {TIFFTAG_SOFTWARE, "Software"},
-      {TIFFTAG_HOSTCOMPUTER, "HostComputer"}, {TIFFTAG_DOCUMENTNAME, "DocumentName"}};
+  constexpr std::pair<std::uint32_t, const char*> kTags[] = {{TIFFTAG_ARTIST, "Artist"},
+                                                             {TIFFTAG_COPYRIGHT, "Copyright"},
+                                                             {TIFFTAG_DATETIME, "DateTime"},
+                                                             {TIFFTAG_MAKE, "Make"},
+                                                             {TIFFTAG_MODEL, "Model"},
+                                                             {TIFFTAG_SOFTWARE, "Software"},
+                                                             {TIFFTAG_HOSTCOMPUTER, "HostComputer"},
+                                                             {TIFFTAG_DOCUMENTNAME, "DocumentName"}};
   char* text = nullptr;
   if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) == 1) {
     parse_attribute_lines(text, "ImageDescription", page.attributes);
@@ -124,7 +135,8 @@ void read_blocks(TIFF* tiff, const Source& source, TiffPage& page) {
   page.block_height = static_cast<int>(height);
 }
 
-/// Grey or RGB samples that libtiff hands over as they are; false when only its RGBA conversion can read them.
+/// Grey or RGB samples that libtiff hands over as they are; false when only its RGBA conversion can read
+/// them.
 bool has_plain_samples(int photometric, int bits) {
   const bool grey_or_rgb = photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_MINISWHITE ||
                            photometric == PHOTOMETRIC_RGB;
@@ -163,8 +175,8 @@ TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
     fail("compression " + std::to_string(compression) + " is not known here");
   }
   const Compression* known = find_compression(compression);
-  const std::uint64_t stored = static_cast<std::uint64_t>(width) * height * static_cast<std::uint64_t>(samples) *
-                               static_cast<std::uint64_t>(bits) / 8;
+  const std::uint64_t stored = static_cast<std::uint64_t>(width) * height *
+                               static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(bits) / 8;
   if (known != nullptr && known->best_ratio > 0 && photometric != PHOTOMETRIC_YCBCR &&
       stored / known->best_ratio > source.bytes.size()) {
     fail(std::to_string(source.bytes.size()) + " bytes cannot hold " + std::to_string(width) + "×" +
@@ -191,7 +203,8 @@ TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
     page.decoding = colour ? TiffDecoding::xyz : TiffDecoding::samples;
     page.part.type = PixelType::float32;
     page.part.channels = colour ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
-    page.notes.push_back(colour ? "LogLuv, converted to linear RGB of sRGB primaries and white" : "LogL luminance");
+    page.notes.push_back(colour ? "LogLuv, converted to linear RGB of sRGB primaries and white"
+                                : "LogL luminance");
     return page;
   }
   // choose_tiff_conversions has made libtiff hand over RGB.
@@ -221,8 +234,8 @@ TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
     page.part.channels.push_back("A");
   }
   check_size(source, width, height, 4);
-  page.notes.push_back("photometric interpretation " + std::to_string(photometric) + " of " + std::to_string(bits) +
-                       " bits, converted to 8-bit RGB");
+  page.notes.push_back("photometric interpretation " + std::to_string(photometric) + " of " +
+                       std::to_string(bits) + " bits, converted to 8-bit RGB");
   return page;
 }
 

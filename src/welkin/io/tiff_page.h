@@ -12,10 +12,10 @@ namespace welkin::io {
 
 /// How the samples of a TIFF directory become values.
 enum class TiffDecoding {
-  samples,   ///< as PartInfo::type says
-  doubles,   ///< 64-bit floats, narrowed to float
-  xyz,       ///< LogLuv, which libtiff decodes to CIE XYZ floats
-  rgba       ///< libtiff's own conversion to 8-bit RGBA
+  samples,  ///< as PartInfo::type says
+  doubles,  ///< 64-bit floats, narrowed to float
+  xyz,      ///< LogLuv, which libtiff decodes to CIE XYZ floats
+  rgba      ///< libtiff's own conversion to 8-bit RGBA
 };
 
 /// One directory of a TIFF, understood.
@@ -25,16 +25,17 @@ struct TiffPage {
   std::uint64_t directory = 0;  ///< byte offset
   int stored_samples = 0;       ///< per pixel, before any conversion
   bool planar = false;
-  bool inverted = false;        ///< 0 is white
+  bool inverted = false;  ///< 0 is white
   bool tiled = false;
-  int block_width = 0;          ///< of a strip or a tile
+  int block_width = 0;  ///< of a strip or a tile
   int block_height = 0;
   std::map<std::string, std::string> attributes;
   std::vector<std::string> notes;
 };
 
-/// Understands libtiff's current directory and sets what libtiff must convert while decoding (LogLuv, JPEG). Throws
-/// Error naming the file when the directory is of a kind that cannot be read, or implausible for the file's length.
+/// Understands libtiff's current directory and sets what libtiff must convert while decoding (LogLuv, JPEG).
+/// Throws Error naming the file when the directory is of a kind that cannot be read, or implausible for the
+/// file's length.
 TiffPage understand_tiff_page(TIFF* tiff, const Source& source);
 
 /// Makes libtiff convert LogLuv and JPEG to floats and RGB. Needed again whenever the directory is entered.

@@ -65,10 +65,10 @@ TEST(Tiff, OtherTypesComeBackRoundedOnce) {
     Colour colour;
   };
   constexpr float kSteepest = 2.4f / 1.055f;  // slope of sRGB decoding at 1
-  for (const Case& each : {Case{PixelType::uint8, 0.5f / 255 * kSteepest, Colour::srgb},
-                           Case{PixelType::uint16, 0.5f / 65535 * kSteepest, Colour::srgb},
-                           Case{PixelType::uint32, 0x1p-24f, Colour::linear},
-                           Case{PixelType::half, 0x1p-12f, Colour::linear}}) {
+  for (const Case& each :
+       {Case{PixelType::uint8, 0.5f / 255 * kSteepest, Colour::srgb},
+        Case{PixelType::uint16, 0.5f / 65535 * kSteepest, Colour::srgb},
+        Case{PixelType::uint32, 0x1p-24f, Colour::linear}, Case{PixelType::half, 0x1p-12f, Colour::linear}}) {
     for (const char* compression : {"none", "zip", "lzw"}) {
       WriteOptions options;
       options.type = each.type;
@@ -151,7 +151,8 @@ TEST(Tiff, PlanarTiledBigEndianBigTiffIsRead) {
               tile[static_cast<std::size_t>((y - top) * 32 + x - left)] = image.at(x, y)[plane];
             }
           }
-          TIFFWriteTile(tiff, tile.data(), static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(top), 0, plane);
+          TIFFWriteTile(tiff, tile.data(), static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(top),
+                        0, plane);
         }
       }
     }
@@ -227,7 +228,8 @@ TEST(Tiff, AbsurdSizesAreErrors) {
   EXPECT_NE(message.find("bytes cannot hold 100000×50000 pixels"), std::string::npos) << message;
 }
 
-// The directory stands after the pixels, so every cut loses a part of it; its last bytes are padding and text.
+// The directory stands after the pixels, so every cut loses a part of it; its last bytes are padding and
+// text.
 TEST(Tiff, TruncationIsAnError) {
   for (const char* compression : {"none", "zip", "lzw"}) {
     WriteOptions options;

@@ -12,7 +12,8 @@
 namespace welkin::io {
 namespace {
 
-/// An OutputFile as libtiff writes to it. An exception may not pass through libtiff's frames, so it waits in `thrown`.
+/// An OutputFile as libtiff writes to it. An exception may not pass through libtiff's frames, so it waits in
+/// `thrown`.
 struct Output {
   OutputFile& file;
   std::exception_ptr thrown;
@@ -94,7 +95,9 @@ Samples arrange(const std::vector<std::string>& channels) {
 class Writer {
  public:
   Writer(OutputFile& file, const WriteOptions& options, const char* mode)
-      : options_(options), output_{file, nullptr}, tiff_(open_tiff_stream(output_.stream(), mode, kUnlimited, failure_)) {
+      : options_(options),
+        output_{file, nullptr},
+        tiff_(open_tiff_stream(output_.stream(), mode, kUnlimited, failure_)) {
     if (tiff_ == nullptr) fail();
   }
 
@@ -176,8 +179,8 @@ class Writer {
     const PixelEncoder pixels(type_, samples.order, srgb_channels(samples.names, colour_));
     const std::size_t stride = static_cast<std::size_t>(image.width) * pixels.pixel_bytes();
     constexpr std::size_t kStripBytes = std::size_t{1} << 18;
-    const int rows_of_strip = static_cast<int>(std::clamp<std::size_t>(kStripBytes / stride, 1,
-                                                                       static_cast<std::size_t>(image.height)));
+    const int rows_of_strip = static_cast<int>(
+        std::clamp<std::size_t>(kStripBytes / stride, 1, static_cast<std::size_t>(image.height)));
     set(TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(rows_of_strip));
     std::vector<std::byte> strip(stride * static_cast<std::size_t>(rows_of_strip));
     WriteReport report;
@@ -204,8 +207,8 @@ class Writer {
 
 WriteReport write_tiff(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
   static const std::string known[] = {"zip", "none", "lzw"};
-  static constexpr PixelType types[] = {PixelType::float32, PixelType::half, PixelType::uint8, PixelType::uint16,
-                                        PixelType::uint32};
+  static constexpr PixelType types[] = {PixelType::float32, PixelType::half, PixelType::uint8,
+                                        PixelType::uint16, PixelType::uint32};
   const PixelType type = pixel_type(options, types, "TIFF");
   const std::string chosen = compression(options, known, "TIFF");
 

@@ -17,25 +17,28 @@ template <class F>
 std::vector<float> table(std::size_t size, F value_of) {
   std::vector<float> values(size);
   const double largest = static_cast<double>(size - 1);
-  for (std::size_t k = 0; k < size; ++k) values[k] = static_cast<float>(value_of(static_cast<double>(k) / largest));
+  for (std::size_t k = 0; k < size; ++k)
+    values[k] = static_cast<float>(value_of(static_cast<double>(k) / largest));
   return values;
 }
 
-double same(double x) { return x; }
+double same(double x) {
+  return x;
+}
 
 }  // namespace
 
 double srgb_to_linear(double encoded) {
   const double magnitude = std::fabs(encoded);
-  const double linear =
-      magnitude <= kKneeEncoded ? magnitude / kSlope : std::pow((magnitude + kOffset) / (1 + kOffset), kPower);
+  const double linear = magnitude <= kKneeEncoded ? magnitude / kSlope
+                                                  : std::pow((magnitude + kOffset) / (1 + kOffset), kPower);
   return std::copysign(linear, encoded);
 }
 
 double linear_to_srgb(double linear) {
   const double magnitude = std::fabs(linear);
-  const double encoded =
-      magnitude <= kKneeLinear ? magnitude * kSlope : (1 + kOffset) * std::pow(magnitude, 1 / kPower) - kOffset;
+  const double encoded = magnitude <= kKneeLinear ? magnitude * kSlope
+                                                  : (1 + kOffset) * std::pow(magnitude, 1 / kPower) - kOffset;
   return std::copysign(encoded, linear);
 }
 

@@ -52,10 +52,13 @@ TEST(Transfer, TablesAreTheFormulasRounded) {
   }
 }
 
-int rounded_formula(int levels, float x) { return static_cast<int>(std::floor(levels * linear_to_srgb(x) + 0.5)); }
+int rounded_formula(int levels, float x) {
+  return static_cast<int>(std::floor(levels * linear_to_srgb(x) + 0.5));
+}
 
 TEST(SrgbEncoder, EqualsTheRoundedFormulaAtEveryThreshold) {
-  for (const auto& [levels, encoder] : {std::pair{255, &srgb8_encoder()}, std::pair{65535, &srgb16_encoder()}}) {
+  for (const auto& [levels, encoder] :
+       {std::pair{255, &srgb8_encoder()}, std::pair{65535, &srgb16_encoder()}}) {
     for (int code = 1; code <= levels; ++code) {
       float x = static_cast<float>(srgb_to_linear((code - 0.5) / levels));
       for (int i = 0; i < 4; ++i) x = std::nextafter(x, 0.0f);
@@ -77,8 +80,14 @@ TEST(SrgbEncoder, EqualsTheRoundedFormulaEverywhere) {
   }
 }
 
+TEST(SrgbEncoder, NegativeZeroIsZero) {
+  EXPECT_EQ(srgb8_encoder()(-0.0f), 0);
+  EXPECT_EQ(srgb16_encoder()(-0.0f), 0);
+}
+
 TEST(SrgbEncoder, InvertsTheTables) {
-  for (std::size_t k = 0; k < 65536; ++k) ASSERT_EQ(srgb16_encoder()(srgb16_to_linear()[k]), static_cast<int>(k));
+  for (std::size_t k = 0; k < 65536; ++k)
+    ASSERT_EQ(srgb16_encoder()(srgb16_to_linear()[k]), static_cast<int>(k));
   for (std::size_t k = 0; k < 256; ++k) ASSERT_EQ(srgb8_encoder()(srgb8_to_linear()[k]), static_cast<int>(k));
 }
 

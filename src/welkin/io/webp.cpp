@@ -22,11 +22,15 @@ bool matches(std::span<const std::byte> bytes) {
 
 std::string text_of(VP8StatusCode status) {
   switch (status) {
-    case VP8_STATUS_OUT_OF_MEMORY: return "out of memory";
-    case VP8_STATUS_UNSUPPORTED_FEATURE: return "a WebP feature that is not supported";
+    case VP8_STATUS_OUT_OF_MEMORY:
+      return "out of memory";
+    case VP8_STATUS_UNSUPPORTED_FEATURE:
+      return "a WebP feature that is not supported";
     case VP8_STATUS_SUSPENDED:
-    case VP8_STATUS_NOT_ENOUGH_DATA: return "ends early";
-    default: return "the WebP data is malformed";
+    case VP8_STATUS_NOT_ENOUGH_DATA:
+      return "ends early";
+    default:
+      return "the WebP data is malformed";
   }
 }
 
@@ -38,8 +42,8 @@ class WebpReader : public Reader {
     if (features.has_animation != 0) throw Error(source_.name + ": an animation, not a picture");
     std::vector<std::string> channels = {"R", "G", "B"};
     if (features.has_alpha != 0) channels.push_back("A");
-    check_size(source_, static_cast<std::uint64_t>(features.width), static_cast<std::uint64_t>(features.height),
-               channels.size());
+    check_size(source_, static_cast<std::uint64_t>(features.width),
+               static_cast<std::uint64_t>(features.height), channels.size());
     constexpr int kLossless = 2;
     info_.format = "webp";
     info_.bytes = source_.bytes.size();
@@ -61,7 +65,8 @@ class WebpReader : public Reader {
     config.options.use_threads = 1;
     config.output.colorspace = picture.channels.size() == 4 ? MODE_RGBA : MODE_RGB;
     config.output.is_external_memory = 1;
-    config.output.u.RGBA = {reinterpret_cast<std::uint8_t*>(stored.data()), static_cast<int>(stride), stored.size()};
+    config.output.u.RGBA = {reinterpret_cast<std::uint8_t*>(stored.data()), static_cast<int>(stride),
+                            stored.size()};
     const VP8StatusCode status = WebPDecode(data(), source_.bytes.size(), &config);
     WebPFreeDecBuffer(&config.output);
     check(status);
@@ -78,7 +83,9 @@ class WebpReader : public Reader {
   Source source_;
 };
 
-std::unique_ptr<Reader> open_webp(const Source& source) { return std::make_unique<WebpReader>(source); }
+std::unique_ptr<Reader> open_webp(const Source& source) {
+  return std::make_unique<WebpReader>(source);
+}
 
 /// Where the encoder's bytes go. An exception may not pass through libwebp's frames, so it waits in `thrown`.
 struct Sink {
@@ -106,8 +113,8 @@ class Picture {
     picture_.height = height;
     picture_.use_argb = lossless ? 1 : 0;
     const auto* data = reinterpret_cast<const std::uint8_t*>(stored.data());
-    const int imported =
-        alpha ? WebPPictureImportRGBA(&picture_, data, 4 * width) : WebPPictureImportRGB(&picture_, data, 3 * width);
+    const int imported = alpha ? WebPPictureImportRGBA(&picture_, data, 4 * width)
+                               : WebPPictureImportRGB(&picture_, data, 3 * width);
     if (imported == 0) throw std::bad_alloc();
   }
   ~Picture() { WebPPictureFree(&picture_); }
@@ -132,7 +139,8 @@ WriteReport write_webp(OutputFile& file, std::span<const WritePart> parts, const
   static constexpr PixelType types[] = {PixelType::uint8};
   constexpr int kLosslessQuality = 100;
   const WritePart& part = only_part(parts, "WebP");
-  const std::string asked = compression(options, std::span(known).subspan(options.compression.empty() ? 0 : 1), "WebP");
+  const std::string asked =
+      compression(options, std::span(known).subspan(options.compression.empty() ? 0 : 1), "WebP");
   const PixelType type = pixel_type(options, types, "WebP");
   const int quality = checked_quality(options);
   const bool lossless = asked.empty() ? quality == kLosslessQuality : asked == "lossless";
@@ -166,6 +174,8 @@ WriteReport write_webp(OutputFile& file, std::span<const WritePart> parts, const
 
 }  // namespace
 
-Format webp_format() { return {"webp", {"webp"}, matches, open_webp, write_webp}; }
+Format webp_format() {
+  return {"webp", {"webp"}, matches, open_webp, write_webp};
+}
 
 }  // namespace welkin::io

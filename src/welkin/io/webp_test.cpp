@@ -49,7 +49,8 @@ TEST(Webp, GreyIsStoredThreeTimes) {
 
 TEST(Webp, LossyIsNearAndSmaller) {
   Image image(64, 64, 3);
-  for (int i = 0; i < 64 * 64 * 3; ++i) image.at(0, 0)[i] = 0.5f + 0.3f * std::sin(0.002f * static_cast<float>(i));
+  for (int i = 0; i < 64 * 64 * 3; ++i)
+    image.at(0, 0)[i] = 0.5f + 0.3f * std::sin(0.002f * static_cast<float>(i));
   WriteOptions options;
   options.quality = 90;
   const Bytes bytes = encoded("webp", image, options);
@@ -65,7 +66,9 @@ TEST(Webp, LossyIsNearAndSmaller) {
 }
 
 TEST(Webp, TooLargeIsRefusedClearly) {
-  EXPECT_NE(error_of([] { encoded("webp", Image(16384, 1, 1)); }).find("too large for WebP, whose sides are at most 16383"),
+  EXPECT_NE(error_of([] {
+              encoded("webp", Image(16384, 1, 1));
+            }).find("too large for WebP, whose sides are at most 16383"),
             std::string::npos);
 }
 

@@ -13,8 +13,9 @@ const WritePart& only_part(std::span<const WritePart> parts, std::string_view fo
 
 void check_sides(const WritePart& part, int largest, std::string_view format) {
   if (part.image.width <= largest && part.image.height <= largest) return;
-  throw Error(std::to_string(part.image.width) + "×" + std::to_string(part.image.height) + " is too large for " +
-              std::string(format) + ", whose sides are at most " + std::to_string(largest));
+  throw Error(std::to_string(part.image.width) + "×" + std::to_string(part.image.height) +
+              " is too large for " + std::string(format) + ", whose sides are at most " +
+              std::to_string(largest));
 }
 
 std::vector<int> channel_order(const WritePart& part, Alpha alpha, std::string_view format) {
@@ -23,7 +24,8 @@ std::vector<int> channel_order(const WritePart& part, Alpha alpha, std::string_v
   std::vector<Names> known = {{"R", "G", "B"}};
   if (alpha == Alpha::allowed) known.insert(known.end(), {Names{"Y", "A"}, Names{"R", "G", "B", "A"}});
   for (const Names& names : known) {
-    if (!std::is_permutation(names.begin(), names.end(), part.channels.begin(), part.channels.end())) continue;
+    if (!std::is_permutation(names.begin(), names.end(), part.channels.begin(), part.channels.end()))
+      continue;
     std::vector<int> order;
     for (const auto& name : names) {
       const auto found = std::find(part.channels.begin(), part.channels.end(), name);
@@ -42,11 +44,12 @@ PixelType pixel_type(const WriteOptions& options, std::span<const PixelType> kno
   if (std::find(known.begin(), known.end(), *options.type) != known.end()) return *options.type;
   std::string names;
   for (const PixelType type : known) names += (names.empty() ? "" : ", ") + std::string(name_of(type));
-  throw Error(std::string(format) + " holds no " + std::string(name_of(*options.type)) + " pixels (one of: " + names +
-              ")");
+  throw Error(std::string(format) + " holds no " + std::string(name_of(*options.type)) +
+              " pixels (one of: " + names + ")");
 }
 
-std::string compression(const WriteOptions& options, std::span<const std::string> known, std::string_view format) {
+std::string compression(const WriteOptions& options, std::span<const std::string> known,
+                        std::string_view format) {
   if (options.compression.empty()) return known.front();
   if (std::find(known.begin(), known.end(), options.compression) != known.end()) return options.compression;
   throw Error(unknown_name(std::string(format) + " compression", options.compression, known));

@@ -19,15 +19,16 @@ void check_sides(const WritePart& part, int largest, std::string_view format);
 /// Whether a format has an alpha channel.
 enum class Alpha { none, allowed };
 
-/// Which of the part's channels are stored, in the order Y, Y A, R G B or R G B A. A single channel of any name is
-/// grey.
+/// Which of the part's channels are stored, in the order Y, Y A, R G B or R G B A. A single channel of any
+/// name is grey.
 std::vector<int> channel_order(const WritePart& part, Alpha alpha, std::string_view format);
 
 /// The type asked for, which must be one of `known`; the first of them by default.
 PixelType pixel_type(const WriteOptions& options, std::span<const PixelType> known, std::string_view format);
 
 /// The compression asked for, which must be one of `known`; the first of them by default.
-std::string compression(const WriteOptions& options, std::span<const std::string> known, std::string_view format);
+std::string compression(const WriteOptions& options, std::span<const std::string> known,
+                        std::string_view format);
 
 /// WriteOptions::quality, which must be in 1…100.
 int checked_quality(const WriteOptions& options);

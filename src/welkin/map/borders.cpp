@@ -20,30 +20,37 @@ struct Texel {
 enum class Fill : std::uint8_t { exact, interpolated, unknown };
 
 /// Which texels of a row are places of the map.
-void valid_row(const AnyParameterization& p, const Level& level, int chart, int row, std::vector<float>& u,
-               std::vector<float>& v, std::vector<float>& mask) {
-  std::fill(v.begin(), v.end(), (static_cast<float>(row) + 0.5f) / static_cast<float>(level.height()));
-  p.kernels().valid(p.self(), chart, u.data(), v.data(), mask.data(), static_cast<std::size_t>(level.width()));
-}
+class RowMask {
+ public:
+  explicit RowMask(int width)
+      : u_(sphere::padded(static_cast<std::size_t>(width)), 0.5f), v_(u_.size()), mask_(u_.size()) {
+    for (int x = 0; x < width; ++x) {
+      u_[static_cast<std::size_t>(x)] = (static_cast<float>(x) + 0.5f) / static_cast<float>(width);
+    }
+  }
+  void find_valid(const AnyParameterization& p, const Level& level, int chart, int row) {
+    std::fill(v_.begin(), v_.end(), (static_cast<float>(row) + 0.5f) / static_cast<float>(level.height()));
+    p.kernels().valid(p.self(), chart, u_.data(), v_.data(), mask_.data(), static_cast<std::size_t>(level.width()));
+  }
+  bool valid(int x) const { return mask_[static_cast<std::size_t>(x)] > 0; }
+
+ private:
+  std::vector<float> u_, v_, mask_;
+};
 
 /// Texels of the charts that are not valid, but within kBorder (in both axes) of one that is.
 void collect_rim(const AnyParameterization& p, const Level& level, std::vector<Texel>& texels) {
   const int width = level.width(), height = level.height();
-  const std::size_t capacity = sphere::padded(static_cast<std::size_t>(width));
-  std::vector<float> u(capacity, 0.5f), v(capacity), mask(capacity);
-  for (int x = 0; x < width; ++x) {
-    u[static_cast<std::size_t>(x)] = (static_cast<float>(x) + 0.5f) / static_cast<float>(width);
-  }
+  RowMask row(width);
   const std::size_t stride = static_cast<std::size_t>(width);
   std::vector<std::uint8_t> valid(stride * static_cast<std::size_t>(height));
   for (int chart = 0; chart < level.charts(); ++chart) {
     bool all = true;
     for (int y = 0; y < height; ++y) {
-      valid_row(p, level, chart, y, u, v, mask);
+      row.find_valid(p, level, chart, y);
       for (int x = 0; x < width; ++x) {
-        const bool is_valid = mask[static_cast<std::size_t>(x)] > 0;
-        valid[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] = is_valid;
-        all = all && is_valid;
+        valid[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] = row.valid(x);
+        all = all && row.valid(x);
       }
     }
     if (all) continue;
@@ -156,8 +163,10 @@ void second_value(const AnyParameterization& p, const Level& level, const Texel&
   }
 }
 
-/// Texels without a value take the mean of their neighbours that have one, ring by ring.
-void spread(Level& level, std::vector<Texel> missing) {
+/// Texels without a value take the mean of their neighbours that have one, ring by ring. Texels inside a chart that are
+/// neither valid nor in `known` have none and get none.
+void spread(const AnyParameterization& p, Level& level, bool whole, const std::vector<Texel>& known,
+            std::vector<Texel> missing) {
   const int channels = level.channels(), width = level.width(), height = level.height();
   std::vector<std::uint8_t> unknown;
   const std::ptrdiff_t stride = width + 2 * kBorder;
@@ -165,6 +174,16 @@ void spread(Level& level, std::vector<Texel> missing) {
     return static_cast<std::size_t>(((chart * (height + 2 * kBorder)) + y + kBorder) * stride + x + kBorder);
   };
   unknown.resize(index(level.charts() - 1, width + kBorder - 1, height + kBorder - 1) + 1);
+  if (!whole && !missing.empty()) {
+    RowMask row(width);
+    for (int chart = 0; chart < level.charts(); ++chart) {
+      for (int y = 0; y < height; ++y) {
+        row.find_valid(p, level, chart, y);
+        for (int x = 0; x < width; ++x) unknown[index(chart, x, y)] = row.valid(x) ? 0 : 1;
+      }
+    }
+    for (const Texel& t : known) unknown[index(t.chart, t.x, t.y)] = 0;
+  }
   for (const Texel& t : missing) unknown[index(t.chart, t.x, t.y)] = 1;
   while (!missing.empty()) {
     std::vector<Texel> later, now;
@@ -204,13 +223,7 @@ void spread(Level& level, std::vector<Texel> missing) {
 
 void fill_borders(const AnyParameterization& p, Level& level) {
   std::vector<Texel> texels;
-  // A chart that is valid in its corners and edge middles is valid everywhere: all discs and triangles fail here.
-  bool whole = true;
-  for (int chart = 0; chart < p.charts(); ++chart) {
-    for (double u : {1e-6, 0.5, 1 - 1e-6}) {
-      for (double v : {1e-6, 0.5, 1 - 1e-6}) whole = whole && p.valid(chart, u, v);
-    }
-  }
+  const bool whole = p.full_charts();
   if (!whole) collect_rim(p, level, texels);
   collect_borders(level, texels);
 
@@ -231,13 +244,13 @@ void fill_borders(const AnyParameterization& p, Level& level) {
   };
   for_all([&](std::size_t i) { fills[i] = first_value(p, level, texels[i], whole, values.data() + i * channels); });
   scatter();
-  std::vector<Texel> missing;
+  std::vector<Texel> known, missing;
   bool any_interpolated = false;
   for (std::size_t i = 0; i < texels.size(); ++i) {
-    if (fills[i] == Fill::unknown) missing.push_back(texels[i]);
+    (fills[i] == Fill::unknown ? missing : known).push_back(texels[i]);
     if (fills[i] == Fill::interpolated) any_interpolated = true;
   }
-  spread(level, std::move(missing));
+  spread(p, level, whole, known, std::move(missing));
   if (!any_interpolated) return;
   for_all([&](std::size_t i) {
     if (fills[i] == Fill::interpolated) second_value(p, level, texels[i], values.data() + i * channels);

@@ -9,19 +9,21 @@ namespace {
 /// Texels across the narrow side of a footprint: the coarsest level that still has as many is read. Eight keep the mean within
 /// −55 dB of exact area sampling (bench/filter_quality); four would cost 10 dB and save a tenth of the time.
 constexpr double kTexelsAcross = 8;
-constexpr int kMostSamples = 4096;
+constexpr int kMostTexels = 4096;  ///< of that level, under one footprint
+
+/// Samples for each texel of that level, along either axis, where a texel's area is bent or lies over an edge.
+constexpr double kSamplesPerTexel = 2;
 
 /// Up to so many source texels per target texel the source is interpolated, and one texel later the whole area is averaged.
 /// Lanczos interpolation hardly aliases up to here, and averaging earlier blurs a round trip (bench/round_trip).
-constexpr double kInterpolated = 1.25;
-
-/// The part of a texel to average over, from the number of source texels that it spans.
-double spread(double texels) {
-  const double t = clamp(texels - kInterpolated, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
+constexpr float kInterpolated = 1.25f;
 
 }  // namespace
+
+float spread(float texels) {
+  const float t = clamp(texels - kInterpolated, 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
 
 double Footprint::right_length() const { return std::hypot(right[0], right[1]); }
 double Footprint::down_length() const { return std::hypot(down[0], down[1]); }
@@ -37,22 +39,24 @@ double Footprint::narrow() const {
 
 Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_source, int chart, double x,
                        double y) {
-  // Half a texel to each side of the place, on the sphere.
-  const auto step = [](const sphere::AnyParameterization& p, int c, double u, double v, double du, double dv) {
-    return p.to_sphere(c, u + du, v + dv) - p.to_sphere(c, u - du, v - dv);
+  // Tangents on the sphere times a texel's size: differences over half a texel to each side, or less where a texel is so
+  // large that its ends come round to each other.
+  const auto step = [](const sphere::AnyParameterization& p, int c, double u, double v, double texel_u, double texel_v) {
+    constexpr double kLongest = 1.0 / 16;
+    const double part = std::min(1.0, kLongest / (texel_u + texel_v));
+    const double du = 0.5 * part * texel_u, dv = 0.5 * part * texel_v;
+    return (1 / part) * (p.to_sphere(c, u + du, v + dv) - p.to_sphere(c, u - du, v - dv));
   };
   const auto& t = target.parameterization;
   const double u = x / target.width(), v = y / target.height();
-  const double du = 0.5 / target.width(), dv = 0.5 / target.height();
-  const Vec3d right = to_source * step(t, chart, u, v, du, 0);
-  const Vec3d down = to_source * step(t, chart, u, v, 0, dv);
+  const Vec3d right = to_source * step(t, chart, u, v, 1.0 / target.width(), 0);
+  const Vec3d down = to_source * step(t, chart, u, v, 0, 1.0 / target.height());
 
   const auto& s = source.parameterization;
   const auto place = s.from_sphere(to_source * t.to_sphere(chart, u, v));
   const int source_chart = static_cast<int>(place.chart);
-  const double su = 0.5 / source.width(), sv = 0.5 / source.height();
-  const Vec3d texel_right = step(s, source_chart, place.u, place.v, su, 0);
-  const Vec3d texel_down = step(s, source_chart, place.u, place.v, 0, sv);
+  const Vec3d texel_right = step(s, source_chart, place.u, place.v, 1.0 / source.width(), 0);
+  const Vec3d texel_down = step(s, source_chart, place.u, place.v, 0, 1.0 / source.height());
 
   // Least squares: texel_right·a + texel_down·b ≈ step. At a pole one of the two vanishes; the small term keeps it finite.
   const double tiny = 1e-14 + 1e-9 * (dot(texel_right, texel_right) + dot(texel_down, texel_down));
@@ -72,6 +76,17 @@ Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_s
 
 namespace {
 
+/// The lengths of a footprint's side over a tile.
+struct Range {
+  double lowest = 1e300, highest = 0;
+
+  void add(double length) {
+    lowest = std::min(lowest, length);
+    highest = std::max(highest, length);
+  }
+  bool varies() const { return highest > 1 && highest > 1.5 * lowest; }
+};
+
 struct Planner {
   const Map& source;
   const Map& target;
@@ -84,17 +99,15 @@ struct Planner {
   void plan(int x, int y, int width, int height) {
     const Footprint corners[5] = {at(x, y), at(x + width, y), at(x, y + height), at(x + width, y + height),
                                   at(x + 0.5 * width, y + 0.5 * height)};
-    double longest = 0, shortest = 1e300, narrowest = 1e300, right = 0, down = 0;
+    Range right, down;
+    double narrowest = 1e300;
     for (const Footprint& each : corners) {
-      const double r = each.right_length(), d = each.down_length();
-      longest = std::max({longest, r, d});
-      shortest = std::min(shortest, std::max(r, d));
+      right.add(each.right_length());
+      down.add(each.down_length());
       narrowest = std::min(narrowest, each.narrow());
-      right = std::max(right, r);
-      down = std::max(down, d);
     }
     // Split where the footprint changes: near poles and the rims of discs.
-    if (longest > 1 && longest > 1.5 * shortest && width * height > 4) {
+    if ((right.varies() || down.varies()) && width * height > 1) {
       const int w = (width + 1) / 2, h = (height + 1) / 2;
       plan(x, y, w, h);
       if (w < width) plan(x + w, y, width - w, h);
@@ -104,21 +117,26 @@ struct Planner {
     }
     FootprintTile tile{chart, x, y, width, height, 1, 1, 0, false, {}, {}};
     for (int i = 0; i < 4; ++i) {
-      tile.spread_right[i] = static_cast<float>(spread(corners[i].right_length()));
-      tile.spread_down[i] = static_cast<float>(spread(corners[i].down_length()));
+      // In a texel at a pole the corners are no guide to what lies between them.
+      tile.texels_right[i] = static_cast<float>(right.varies() ? right.highest : corners[i].right_length());
+      tile.texels_down[i] = static_cast<float>(down.varies() ? down.highest : corners[i].down_length());
     }
-    // One sample per texel of the level, along each axis.
-    const auto samples = [&](double texels) {
-      return static_cast<int>(std::ceil(std::min(spread(texels) * texels / std::exp2(tile.level), 1e4)));
+    const auto averaged = [&](double texels) {
+      const double part = static_cast<double>(spread(static_cast<float>(texels)));
+      return std::min(part * texels / std::exp2(tile.level), 1e4);
     };
     const int most_levels = 20;
     tile.level = static_cast<int>(clamp(std::floor(std::log2(narrowest / kTexelsAcross + 1e-300)), 0.0, 20.0));
-    while (tile.level < most_levels && samples(right) * static_cast<long>(samples(down)) > kMostSamples) ++tile.level;
-    double least_spread = 1;
-    for (int i = 0; i < 4; ++i) least_spread = std::min<double>({least_spread, tile.spread_right[i], tile.spread_down[i]});
-    tile.whole = least_spread >= 1;
-    tile.samples_right = std::max(1, samples(right));
-    tile.samples_down = std::max(1, samples(down));
+    while (tile.level < most_levels && averaged(right.highest) * averaged(down.highest) > kMostTexels) ++tile.level;
+    const float fewest = std::min(*std::min_element(tile.texels_right, tile.texels_right + 4),
+                                  *std::min_element(tile.texels_down, tile.texels_down + 4));
+    tile.whole = spread(fewest) >= 1;
+    const auto samples = [&](double texels) {
+      const double density = spread(static_cast<float>(texels)) < 1 ? 1 : kSamplesPerTexel;
+      return std::max(1, static_cast<int>(std::ceil(density * averaged(texels))));
+    };
+    tile.samples_right = samples(right.highest);
+    tile.samples_down = samples(down.highest);
     tiles.push_back(tile);
   }
 };

@@ -29,10 +29,14 @@ struct FootprintTile {
   int samples_right, samples_down;  ///< per texel; 1×1 is one look-up at the centre
   int level;                        ///< of the source's pyramid
   bool whole;                       ///< every texel is averaged over all of its area, which spans several source texels
-  /// Part of the texel over which samples are spread, to the right and down, at the tile's four corners (top left, top
-  /// right, bottom left, bottom right): 0 for a look-up at the centre, 1 for the whole texel.
-  float spread_right[4], spread_down[4];
+  /// Source texels that a target texel crosses, to the right and down, at the tile's four corners (top left, top right,
+  /// bottom left, bottom right).
+  float texels_right[4], texels_down[4];
 };
+
+/// Part of the texel over which samples are spread, when it crosses so many source texels: 0 for a look-up at the centre, 1
+/// for the whole texel.
+float spread(float texels);
 
 /// Tiles of a whole target chart row band: covers `rows` rows from `first_row` of `chart`. Tiles are split until the footprint
 /// hardly changes within one.

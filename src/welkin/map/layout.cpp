@@ -181,6 +181,17 @@ MapShape parse_map_shape(std::string_view text) {
   throw Error(unknown_name("layout of " + parameterization.name(), wanted, names));
 }
 
+Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& p) {
+  if (p.charts() != 6 || layout.kind == LayoutKind::layers) return layout;
+  Layout changed = layout;
+  const bool adjoining = layout.name == "hcross" || layout.name == "vcross" || layout.name == "flat" || layout.name == "bands";
+  for (LayoutCell& cell : changed.cells) {
+    cell.mirrored = false;
+    if (adjoining && cell.chart <= nx) cell.chart = px + nx - cell.chart;
+  }
+  return changed;
+}
+
 Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, std::string_view faces) {
   const std::vector<std::string> parts = split(faces, ',');
   if (parts.size() != layout.cells.size()) {

@@ -51,6 +51,10 @@ struct MapShape {
 /// Parses NAME[:LAYOUT][,PARAMETER=VALUE]…. Throws Error for unknown names, with the nearest.
 MapShape parse_map_shape(std::string_view text);
 
+/// The layout for a map whose orientation is a reflection. Its native faces are unmirrored pictures already, so cells aren't mirrored,
+/// and where faces adjoin, +X and −X change places.
+Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& parameterization);
+
 /// Another order and turn of the charts: `px,nx,py:90,ny:270:mirror,pz,nz` names the chart of each of the layout's cells in reading
 /// order, and how its picture is turned clockwise (after mirroring) beyond what the layout does. Also `+X` for `px`.
 Layout with_faces(const Layout& layout, const sphere::AnyParameterization& parameterization, std::string_view faces);

@@ -7,7 +7,8 @@
 
 namespace welkin {
 
-/// Luminance of a texel by its channels' names: ITU-R BT.709 weights for R, G, B; without these the channel Y, or the first.
+/// Luminance of a texel by its channels' names: ITU-R BT.709 weights for R, G, B; without these the channel
+/// Y, or the first.
 class TexelLuminance {
  public:
   explicit TexelLuminance(const std::vector<std::string>& channel_names) : r_(find(channel_names, "R")) {

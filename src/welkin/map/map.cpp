@@ -58,7 +58,7 @@ void texel_solid_angles(const sphere::AnyParameterization& parameterization, int
   const float centre = (static_cast<float>(row) + 0.5f) / static_cast<float>(height);
   std::fill(std::begin(v), std::end(v), centre);
   const sphere::Kernels& kernels = parameterization.kernels();
-  if (parameterization.density_by_row()) {
+  if (parameterization.density_by_row() && parameterization.full_charts()) {
     std::fill(out, out + width,
               static_cast<float>(parameterization.solid_angle_density(chart, 0.5, centre)) * texel_area);
     return;

@@ -80,6 +80,10 @@ std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& fil
   return std::nullopt;
 }
 
+Layout layout_for(const Layout& layout, const sphere::AnyParameterization& p, const Matrix3& orientation) {
+  return determinant(orientation) < 0 ? for_reflected_world(layout, p) : layout;
+}
+
 std::string attribute(const io::FileInfo& file, const char* key) {
   const auto found = file.attributes.find(key);
   return found == file.attributes.end() ? std::string() : found->second;
@@ -156,6 +160,7 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   }
   try {
     info.shape = parse_map_shape(shape);
+    info.shape->layout = layout_for(info.shape->layout, info.shape->parameterization, info.orientation);
     if (!faces.empty()) info.shape->layout = with_faces(info.shape->layout, info.shape->parameterization, faces);
   } catch (const Error& error) {
     // A damaged declaration names its file; a bad request names itself.
@@ -271,7 +276,8 @@ LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
 
 io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& layout, const WriteMapOptions& options) {
   const auto& p = map.parameterization;
-  const Layout placed = options.faces.empty() ? layout : with_faces(layout, p, options.faces);
+  Layout placed = layout_for(layout, p, map.orientation);
+  if (!options.faces.empty()) placed = with_faces(placed, p, options.faces);
   const bool pattern = is_pattern(path);
   if (pattern != (placed.kind == LayoutKind::files)) {
     throw Error(path.string() + (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"

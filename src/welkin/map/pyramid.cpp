@@ -56,7 +56,8 @@ Level reduce(const sphere::AnyParameterization& parameterization, const Level& f
   Level coarser(finer.charts(), width, height, channels);
   const std::vector<Overlap> columns = overlaps(finer.width(), width), rows = overlaps(finer.height(), height);
   const bool even = finer.width() % 2 == 0 && finer.height() % 2 == 0;
-  const bool uniform = even && (weight == TexelWeight::equal || parameterization.density_by_row());
+  const bool uniform = even && (weight == TexelWeight::equal || parameterization.density_by_row()) &&
+                       parameterization.full_charts();
 
   const auto reduce_row = [&](int chart, int y, std::vector<float>& weights) {
     const ImageView<const float> from = finer.chart(chart);
@@ -67,10 +68,9 @@ Level reduce(const sphere::AnyParameterization& parameterization, const Level& f
     for (int k = 0; k < 3; ++k) {
       float* row = weights.data() + static_cast<std::size_t>(k) * fine_width;
       if (!(vertical.share[k] > 0)) continue;
+      texel_solid_angles(parameterization, finer.width(), finer.height(), chart, vertical.first + k, row);
       if (weight == TexelWeight::equal) {
-        std::fill_n(row, fine_width, 1.0f);
-      } else {
-        texel_solid_angles(parameterization, finer.width(), finer.height(), chart, vertical.first + k, row);
+        std::transform(row, row + fine_width, row, [](float w) { return w > 0 ? 1.0f : 0.0f; });
       }
     }
     if (uniform && channels <= 4) {

@@ -66,18 +66,6 @@ class Batch {
   }
 };
 
-/// Whether every texel of every chart is a place of the map.
-bool is_full(const sphere::AnyParameterization& p) {
-  for (int chart = 0; chart < p.charts(); ++chart) {
-    for (double u : {1e-6, 0.5, 1 - 1e-6}) {
-      for (double v : {1e-6, 0.5, 1 - 1e-6}) {
-        if (!p.valid(chart, u, v)) return false;
-      }
-    }
-  }
-  return true;
-}
-
 class Resampler {
  public:
   Resampler(const Map& source, Map& target, const ResampleOptions& options)
@@ -86,7 +74,7 @@ class Resampler {
         options_(options),
         to_source_(source.orientation * transpose(options.rotation) * transpose(target.orientation)),
         turned_(!(to_source_ == Matrix3{})),
-        target_is_full_(is_full(target.parameterization)),
+        target_is_full_(target.parameterization.full_charts()),
         source_is_whole_(source.parameterization.whole_world()),
         kernels_(fetch_kernels(source.channels())),
         area_mean_(area_mean(source.channels())),
@@ -173,7 +161,9 @@ class Resampler {
   void store(int chart, int x0, int y0, int width, int height, const float* pixels) {
     const ImageView<float> out = target_.level.chart(chart);
     const std::size_t row = static_cast<std::size_t>(width) * channels();
-    for (int y = 0; y < height; ++y) std::memcpy(out.at(x0, y0 + y), pixels + y * row, row * sizeof(float));
+    for (int y = 0; y < height; ++y) {
+      std::memcpy(out.at(x0, y0 + y), pixels + static_cast<std::size_t>(y) * row, row * sizeof(float));
+    }
   }
 
   void run_automatic() {
@@ -352,8 +342,8 @@ class Resampler {
       return top + fy * (bottom - top);
     };
     const float across = 1.0f / static_cast<float>(target_.width()), down = 1.0f / static_cast<float>(target_.height());
-    const float step_x = mix(tile.spread_right) / static_cast<float>(tile.samples_right);
-    const float step_y = mix(tile.spread_down) / static_cast<float>(tile.samples_down);
+    const float step_x = spread(mix(tile.texels_right)) / static_cast<float>(tile.samples_right);
+    const float step_y = spread(mix(tile.texels_down)) / static_cast<float>(tile.samples_down);
     const float centre_x = static_cast<float>(tile.x + x) + 0.5f, centre_y = static_cast<float>(tile.y + y) + 0.5f;
     const float middle_x = 0.5f * static_cast<float>(tile.samples_right - 1);
     const float middle_y = 0.5f * static_cast<float>(tile.samples_down - 1);

@@ -5,8 +5,8 @@
 
 namespace welkin {
 
-/// `rows` rows cut into bands for parallel sums. The cut depends on `rows` alone, so sums that are added up band after
-/// band are the same whatever the number of threads.
+/// `rows` rows cut into bands for parallel sums. The cut depends on `rows` alone, so sums that are added up
+/// band after band are the same whatever the number of threads.
 struct RowBands {
   int rows;
   int count;

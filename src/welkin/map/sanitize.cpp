@@ -17,7 +17,8 @@ bool is_finite_row(const float* values, std::ptrdiff_t count) {
 }
 
 /// The mean of the finite values at x−1, x, x+1 of three rows (null where there is none), else `replacement`.
-float mean_of_neighbours(const float* const (&rows)[3], int x, int width, int channels, int channel, float replacement) {
+float mean_of_neighbours(const float* const (&rows)[3], int x, int width, int channels, int channel,
+                         float replacement) {
   double sum = 0;
   int count = 0;
   for (const float* row : rows) {
@@ -34,7 +35,8 @@ float mean_of_neighbours(const float* const (&rows)[3], int x, int width, int ch
 }
 
 /// Replaces in `row`; `rows` are the ones above, at and below it as they were.
-std::uint64_t sanitize_row(const float* const (&rows)[3], float* row, int width, int channels, float replacement) {
+std::uint64_t sanitize_row(const float* const (&rows)[3], float* row, int width, int channels,
+                           float replacement) {
   std::uint64_t replaced = 0;
   for (int x = 0; x < width; ++x) {
     bool bad = false;
@@ -60,7 +62,8 @@ std::uint64_t sanitize(Map& map, float replacement) {
   std::vector<std::uint8_t> finite(static_cast<std::size_t>(bands.rows));
   parallel_for(bands.count, [&](int band) {
     for (int row = bands.first(band); row < bands.first(band + 1); ++row) {
-      finite[static_cast<std::size_t>(row)] = is_finite_row(map.level.chart(row / height).row(row % height), values);
+      finite[static_cast<std::size_t>(row)] =
+          is_finite_row(map.level.chart(row / height).row(row % height), values);
     }
   });
 
@@ -74,8 +77,11 @@ std::uint64_t sanitize(Map& map, float replacement) {
       const bool change = !finite[static_cast<std::size_t>(chart * height + y)];
       if (change) {
         std::copy_n(view.row(y), values, here.data());
-        const float* const untouched_above = y == 0 ? nullptr : above_changed ? above.data() : view.row(y - 1);
-        const float* const rows[3] = {untouched_above, here.data(), y + 1 < height ? view.row(y + 1) : nullptr};
+        const float* const untouched_above = y == 0          ? nullptr
+                                             : above_changed ? above.data()
+                                                             : view.row(y - 1);
+        const float* const rows[3] = {untouched_above, here.data(),
+                                      y + 1 < height ? view.row(y + 1) : nullptr};
         replaced += sanitize_row(rows, view.row(y), width, channels, replacement);
         std::swap(above, here);
       }

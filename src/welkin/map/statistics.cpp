@@ -17,7 +17,9 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kBinShift = 17;
 constexpr std::size_t kBins = std::size_t{1} << (31 - kBinShift);
 
-std::size_t bin_of(float positive) { return std::bit_cast<std::uint32_t>(positive) >> kBinShift; }
+std::size_t bin_of(float positive) {
+  return std::bit_cast<std::uint32_t>(positive) >> kBinShift;
+}
 double lowest_of_bin(std::size_t bin) {
   return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bin << kBinShift)));
 }
@@ -155,12 +157,14 @@ class Measurer {
   }
 
  private:
-  const float* row_of(int row) const { return map_.level.chart(row / map_.height()).row(row % map_.height()); }
+  const float* row_of(int row) const {
+    return map_.level.chart(row / map_.height()).row(row % map_.height());
+  }
 
   void solid_angles(int row, std::vector<float>& weights) const {
     weights.resize(static_cast<std::size_t>(map_.width()));
-    texel_solid_angles(map_.parameterization, map_.width(), map_.height(), row / map_.height(), row % map_.height(),
-                       weights.data());
+    texel_solid_angles(map_.parameterization, map_.width(), map_.height(), row / map_.height(),
+                       row % map_.height(), weights.data());
   }
 
   BandSums add_up() {
@@ -288,8 +292,8 @@ class Measurer {
         while (first < count && !bright(first)) ++first;
         if (first == count) continue;
         for (int i = 0; i < kBatch; ++i) u[i] = centre(std::min(start + i, map_.width() - 1), map_.width());
-        map_.parameterization.kernels().to_sphere(map_.parameterization.self(), row / map_.height(), u, v, dx, dy, dz,
-                                                  static_cast<std::size_t>(count));
+        map_.parameterization.kernels().to_sphere(map_.parameterization.self(), row / map_.height(), u, v, dx,
+                                                  dy, dz, static_cast<std::size_t>(count));
         for (int i = first; i < count; ++i) {
           const Vec3d d{static_cast<double>(dx[i]), static_cast<double>(dy[i]), static_cast<double>(dz[i])};
           if (!bright(i) || dot(d, peak) < reach) continue;
@@ -322,6 +326,8 @@ class Measurer {
 
 }  // namespace
 
-MapStatistics measure(const Map& map, const Monitor& monitor) { return Measurer(map, monitor).run(); }
+MapStatistics measure(const Map& map, const Monitor& monitor) {
+  return Measurer(map, monitor).run();
+}
 
 }  // namespace welkin

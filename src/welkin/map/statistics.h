@@ -21,16 +21,16 @@ struct ChannelStatistics {
   std::uint64_t negative_texels = 0;  ///< finite and below 0
 };
 
-/// Luminance is 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709) of the channels named R, G and B; without these, the channel
-/// Y, or the first. Texels where it isn't finite are left out.
+/// Luminance is 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709) of the channels named R, G and B; without
+/// these, the channel Y, or the first. Texels where it isn't finite are left out.
 struct LuminanceStatistics {
   double minimum = 0;
   double smallest_positive = 0;
   double maximum = 0;
   double mean = 0;      ///< weighted by solid angle
   double integral = 0;  ///< ∫ L dω, luminance·sr
-  /// Luminance below which this percentage of the solid angle lies. From a histogram with 64 bins to the octave, so within
-  /// 1/64 of the value; 0 where it falls among texels that aren't positive.
+  /// Luminance below which this percentage of the solid angle lies. From a histogram with 64 bins to the
+  /// octave, so within 1/64 of the value; 0 where it falls among texels that aren't positive.
   double percentile_1 = 0;
   double percentile_50 = 0;
   double percentile_99 = 0;
@@ -38,35 +38,37 @@ struct LuminanceStatistics {
   double dynamic_range = 0;  ///< log2(maximum / smallest_positive), stops
 };
 
-/// The texel of the highest luminance and the light that it belongs to: the texels with at least half its luminance that lie
-/// within kLightReach of it.
+/// The texel of the highest luminance and the light that it belongs to: the texels with at least half its
+/// luminance that lie within kLightReach of it.
 struct BrightestLight {
-  int chart = 0, x = 0, y = 0;   ///< the brightest texel, the first of equals
-  double peak = 0;               ///< its luminance
+  int chart = 0, x = 0, y = 0;    ///< the brightest texel, the first of equals
+  double peak = 0;                ///< its luminance
   Vec3d peak_direction{0, 0, 1};  ///< its centre, in the world
   Vec3d direction{0, 0, 1};       ///< the light's centroid in the world, weighted by luminance·solid angle
-  double solid_angle = 0;        ///< sr
-  std::vector<double> radiance;  ///< mean over the light, one for each channel
-  double luminance = 0;          ///< mean over the light
-  double share = 0;              ///< of the whole map's ∫ L dω
+  double solid_angle = 0;         ///< sr
+  std::vector<double> radiance;   ///< mean over the light, one for each channel
+  double luminance = 0;           ///< mean over the light
+  double share = 0;               ///< of the whole map's ∫ L dω
 };
 inline constexpr double kLightReach = 5 * kPi / 180;
 
 struct MapStatistics {
-  std::uint64_t texels = 0;  ///< places of the map: the corners of a disc aren't counted here, nor anywhere below
-  double solid_angle = 0;    ///< that they cover together, sr: the parameterization's coverage
+  std::uint64_t texels =
+      0;  ///< places of the map: the corners of a disc aren't counted here, nor anywhere below
+  double solid_angle = 0;  ///< that they cover together, sr: the parameterization's coverage
   std::vector<ChannelStatistics> channels;
   LuminanceStatistics luminance;
   std::optional<BrightestLight> light;  ///< none when no luminance is positive
 };
 
-/// Reads the charts, not their borders. Solid angles are the density at the texel's centre times its area, scaled so that all
-/// together make the coverage. The same numbers whatever the number of threads. Throws Cancelled.
+/// Reads the charts, not their borders. Solid angles are the density at the texel's centre times its area,
+/// scaled so that all together make the coverage. The same numbers whatever the number of threads. Throws
+/// Cancelled.
 MapStatistics measure(const Map& map, const Monitor& monitor = {});
 
-/// Replaces every value of the charts (also outside discs) that is NaN or infinite by the mean of the finite values of its
-/// channel among its eight neighbours in the chart, else by `replacement`. Returns how many texels had such a value. The
-/// borders are left as they were: fill them again when it isn't 0.
+/// Replaces every value of the charts (also outside discs) that is NaN or infinite by the mean of the finite
+/// values of its channel among its eight neighbours in the chart, else by `replacement`. Returns how many
+/// texels had such a value. The borders are left as they were: fill them again when it isn't 0.
 std::uint64_t sanitize(Map& map, float replacement = 0);
 
 }  // namespace welkin

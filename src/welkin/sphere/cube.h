@@ -27,8 +27,7 @@ Vec3<T> cube_face_point(int face, T s, T t) {
 }
 
 /// Face, and the point (u, v) ∈ [−1, 1]² of its plane: the longest component picks the face, and divides the
-/// others
-///. The inverse of cube_face_point.
+/// others. The inverse of cube_face_point.
 template <class T>
 ChartPoint<T> cube_face_of(const Vec3<T>& d) {
   const T ax = abs(d.x), ay = abs(d.y), az = abs(d.z);

@@ -127,9 +127,10 @@ TYPED_TEST(ParameterizationTest, DensityAddsUpToTheCoverage) {
     }
   }
   sum /= points;
-  // 2e-4: what a million points miss of a disc; 3e-3 where the density is infinite at its rim.
+  // 3e-4: what a million points miss of a narrow peak or a disc; 3e-3 where the density is infinite at its
+  // rim.
   const bool infinite_rim = p.solid_angle_density(0, 0.5, 1e-9) > 100 * p.solid_angle_density(0, 0.5, 0.5);
-  EXPECT_NEAR(sum, p.coverage(), (infinite_rim ? 3e-3 : 2e-4) * p.coverage());
+  EXPECT_NEAR(sum, p.coverage(), (infinite_rim ? 3e-3 : 3e-4) * p.coverage());
 }
 
 TYPED_TEST(ParameterizationTest, CoverageIsTheShareOfDirectionsCovered) {

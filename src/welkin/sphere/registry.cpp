@@ -187,6 +187,19 @@ int AnyParameterization::charts() const { return model_->charts(); }
 double AnyParameterization::aspect() const { return model_->aspect(); }
 double AnyParameterization::coverage() const { return model_->coverage(); }
 bool AnyParameterization::density_by_row() const { return model_->density_by_row(); }
+
+bool AnyParameterization::full_charts() const {
+  // What isn't full lacks a corner or an edge: discs, triangles, crosses, inset pictures.
+  for (int chart = 0; chart < charts(); ++chart) {
+    for (double u : {1e-6, 0.5, 1 - 1e-6}) {
+      for (double v : {1e-6, 0.5, 1 - 1e-6}) {
+        if (!valid(chart, u, v)) return false;
+      }
+    }
+  }
+  return true;
+}
+
 Vec3d AnyParameterization::to_sphere(int chart, double u, double v) const { return model_->to_sphere(chart, u, v); }
 ChartPoint<double> AnyParameterization::from_sphere(const Vec3d& d) const { return model_->from_sphere(d); }
 double AnyParameterization::solid_angle_density(int chart, double u, double v) const {

@@ -38,6 +38,7 @@ class AnyParameterization {
   double coverage() const;  ///< sr
   bool whole_world() const { return coverage() > 4 * kPi * (1 - 1e-9); }
   bool density_by_row() const;  ///< the density depends on v alone
+  bool full_charts() const;     ///< every place of every chart is valid: no discs, no triangles
 
   // See the concept in parameterization.h.
   Vec3d to_sphere(int chart, double u, double v) const;

@@ -1,0 +1,103 @@
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "welkin/map/compare.h"
+
+namespace welkin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Diff {
+  std::string a, b, filter = "bilinear", heat, from_b;
+  ReadFlags read;
+  double peak = 0, fail_above = -1;
+  bool json = false;
+
+  void run() const;
+};
+
+ordered_json json_of(const ErrorMeasures& e) {
+  const auto direction = [](const Vec3d& d) { return ordered_json{d.x, d.y, d.z}; };
+  return {{"name", e.name},
+          {"relative_rmse", e.relative_rmse},
+          {"rmse", e.rmse},
+          {"mean_absolute", e.mean_absolute},
+          {"max", e.maximum_absolute},
+          {"max_direction", direction(e.maximum_absolute_direction)},
+          {"max_relative", e.maximum_relative},
+          {"max_relative_direction", direction(e.maximum_relative_direction)},
+          {"psnr", std::isfinite(e.psnr) ? ordered_json(e.psnr) : ordered_json(nullptr)},
+          {"mean_a", e.mean_a},
+          {"mean_b", e.mean_b},
+          {"energy_ratio", e.energy_ratio}};
+}
+
+void print(const ErrorMeasures& e) {
+  fmt::print("{:<8} rel. RMSE {:.6g}   RMSE {:.6g}   max {:.6g} along {:.3f},{:.3f},{:.3f}   PSNR {:.2f} dB   "
+             "energy {:.6f}\n",
+             e.name, e.relative_rmse, e.rmse, e.maximum_absolute, e.maximum_absolute_direction.x,
+             e.maximum_absolute_direction.y, e.maximum_absolute_direction.z, e.psnr, e.energy_ratio);
+}
+
+void Diff::run() const {
+  read.parse();
+  CompareOptions options;
+  options.filter = parse_option("--filter", [&] { return filter_from_name(filter); });
+  options.peak = peak;
+  ReadFlags read_b = read;
+  if (!from_b.empty()) read_b.from = from_b;
+  parse_option("--from-b", [&] { return read_b.parse(); });
+  const LoadedMap reference = read.read(a), other = read_b.read(b);
+  options.monitor = progress_monitor("diff");
+  std::optional<Map> picture;
+  if (!heat.empty()) {
+    picture.emplace(sphere::AnyParameterization::make("latlong"), options.heat_width, options.heat_width / 2, 3);
+  }
+  const Comparison result = compare(reference.map, other.map, options, picture ? &*picture : nullptr);
+  end_progress();
+  if (picture) write_map(heat, *picture, layouts_of(picture->parameterization).front());
+  if (json) {
+    ordered_json report{{"a", a}, {"b", b}, {"all", json_of(result.all)}};
+    for (const ErrorMeasures& channel : result.channels) report["channels"].push_back(json_of(channel));
+    report["peak"] = result.peak;
+    report["texel_by_texel"] = result.texel_by_texel;
+    report["texels"] = result.texels;
+    report["solid_angle"] = result.solid_angle;
+    report["skipped"] = result.skipped;
+    fmt::print("{}\n", report.dump(2));
+  } else {
+    for (const ErrorMeasures& channel : result.channels) print(channel);
+    print(result.all);
+    fmt::print("{} texels over {:.4f} sr compared {}{}; PSNR is relative to {:g}\n", result.texels, result.solid_angle,
+               result.texel_by_texel ? "one by one" : "at the finer map's texels",
+               result.skipped > 0 ? fmt::format(", {} skipped (NaN or infinite)", result.skipped) : "", result.peak);
+  }
+  if (fail_above >= 0 && !(result.all.relative_rmse <= fail_above)) {
+    throw Error(fmt::format("{} and {} differ: relative RMSE {:.6g} is above {:g}", a, b, result.all.relative_rmse,
+                            fail_above));
+  }
+}
+
+}  // namespace
+
+void add_diff(CLI::App& app) {
+  auto diff = std::make_shared<Diff>();
+  CLI::App* command = app.add_subcommand("diff", "Measure how B differs from A over the sphere, also across parameterizations");
+  command->add_option("A", diff->a, "Reference map")->required();
+  command->add_option("B", diff->b, "Map to compare")->required();
+  command->add_option("--from-b", diff->from_b, "Parameterization of B, when --from is not its");
+  command->add_option("--filter", diff->filter, "How the coarser map is read: nearest, bilinear, bicubic, lanczos")
+      ->capture_default_str();
+  command->add_option("--peak", diff->peak, "What PSNR is relative to. Default: 1, or A's maximum where that is above 1")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--heat", diff->heat, "Write a picture of the relative error (lat-long, colour scale 1e-5 to 1)");
+  command->add_option("--fail-above", diff->fail_above, "Exit with status 1 when the relative RMSE is above this");
+  command->add_flag("--json", diff->json, "Machine-readable, on standard output");
+  diff->read.add(*command);
+  command->callback([diff] { diff->run(); });
+}
+
+}  // namespace welkin::cli

@@ -1,0 +1,165 @@
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "welkin/map/statistics.h"
+
+namespace welkin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Info {
+  std::vector<std::string> files;
+  ReadFlags read;
+  bool header = false, json = false;
+
+  void run() const;
+};
+
+ordered_json direction(const Vec3d& d) { return {d.x, d.y, d.z}; }
+
+ordered_json header_of(const std::string& path, const MapFileInfo& info) {
+  ordered_json parts = ordered_json::array();
+  for (const io::PartInfo& part : info.image.parts) {
+    parts.push_back({{"name", part.name},
+                     {"width", part.width},
+                     {"height", part.height},
+                     {"channels", part.channels},
+                     {"type", name_of(part.type)},
+                     {"compression", part.compression}});
+  }
+  ordered_json report{{"file", path},
+                      {"format", info.image.format},
+                      {"bytes", info.image.bytes},
+                      {"parts", parts},
+                      {"colour", info.image.colour == io::Colour::srgb ? "srgb" : "linear"},
+                      {"notes", info.image.notes},
+                      {"attributes", info.image.attributes}};
+  report["parameterization"] = info.shape ? ordered_json(info.shape->text()) : ordered_json(nullptr);
+  report["reason"] = info.reason;
+  if (info.shape) report["chart"] = {{"width", info.chart.width}, {"height", info.chart.height}};
+  if (!(info.orientation == Matrix3{})) report["orientation"] = info.orientation.rows;
+  return report;
+}
+
+ordered_json statistics_of(const MapStatistics& s) {
+  ordered_json channels = ordered_json::array();
+  for (const ChannelStatistics& c : s.channels) {
+    channels.push_back({{"name", c.name},
+                        {"min", c.minimum},
+                        {"max", c.maximum},
+                        {"mean", c.mean},
+                        {"integral", c.integral},
+                        {"nan", c.nan_texels},
+                        {"infinite", c.infinite_texels},
+                        {"negative", c.negative_texels}});
+  }
+  const LuminanceStatistics& l = s.luminance;
+  ordered_json report{{"texels", s.texels},
+                      {"solid_angle", s.solid_angle},
+                      {"channels", channels},
+                      {"luminance",
+                       {{"min", l.minimum},
+                        {"max", l.maximum},
+                        {"mean", l.mean},
+                        {"integral", l.integral},
+                        {"percentile_1", l.percentile_1},
+                        {"percentile_50", l.percentile_50},
+                        {"percentile_99", l.percentile_99},
+                        {"percentile_99_9", l.percentile_99_9},
+                        {"stops", l.dynamic_range}}}};
+  if (s.light) {
+    report["brightest_light"] = {{"direction", direction(s.light->direction)},
+                                 {"peak_direction", direction(s.light->peak_direction)},
+                                 {"peak", s.light->peak},
+                                 {"solid_angle", s.light->solid_angle},
+                                 {"radiance", s.light->radiance},
+                                 {"share", s.light->share}};
+  }
+  return report;
+}
+
+void print_header(const std::string& path, const MapFileInfo& info) {
+  fmt::print("{}\n", path);
+  fmt::print("  format            {}, {} bytes, {} values\n", info.image.format, info.image.bytes,
+             info.image.colour == io::Colour::srgb ? "sRGB" : "linear");
+  for (const io::PartInfo& part : info.image.parts) {
+    std::string channels;
+    for (const std::string& channel : part.channels) channels += (channels.empty() ? "" : " ") + channel;
+    fmt::print("  picture{:<10} {}×{}, {} of {}, compression {}\n", part.name.empty() ? "" : " " + part.name,
+               part.width, part.height, channels, name_of(part.type), part.compression);
+  }
+  for (const std::string& note : info.image.notes) fmt::print("  note              {}\n", note);
+  for (const auto& [key, value] : info.image.attributes) {
+    fmt::print("  {:<17} {}\n", key, value.substr(0, value.find('\n')));
+  }
+  if (info.shape) {
+    fmt::print("  parameterization  {} ({}), charts {}×{}×{}\n", info.shape->text(), info.reason,
+               info.shape->parameterization.charts(), info.chart.width, info.chart.height);
+  } else {
+    fmt::print("  parameterization  unknown: {}; name it with --from\n", info.reason);
+  }
+}
+
+void print_statistics(const MapStatistics& s) {
+  fmt::print("  texels            {} over {:.4f} sr ({:.1f} % of the sphere)\n", s.texels, s.solid_angle,
+             100 * s.solid_angle / (4 * kPi));
+  for (const ChannelStatistics& c : s.channels) {
+    fmt::print("  channel {:<9} {:.6g} … {:.6g}, mean {:.6g}\n", c.name, c.minimum, c.maximum, c.mean);
+    const auto count = [&](std::uint64_t number, const char* what) {
+      if (number > 0) fmt::print("  channel {:<9} {} {} texels\n", c.name, number, what);
+    };
+    count(c.nan_texels, "NaN");
+    count(c.infinite_texels, "infinite");
+    count(c.negative_texels, "negative");
+  }
+  const LuminanceStatistics& l = s.luminance;
+  fmt::print("  luminance         {:.6g} … {:.6g}, mean {:.6g}, {:.1f} stops\n", l.minimum, l.maximum, l.mean,
+             l.dynamic_range);
+  fmt::print("  percentiles       1 %: {:.4g}   50 %: {:.4g}   99 %: {:.4g}   99.9 %: {:.4g}\n", l.percentile_1,
+             l.percentile_50, l.percentile_99, l.percentile_99_9);
+  if (!s.light) return;
+  const BrightestLight& light = *s.light;
+  fmt::print("  brightest light   along {:.4f},{:.4f},{:.4f}: peak {:.6g}, {:.3g} sr, {:.1f} % of all light\n",
+             light.direction.x, light.direction.y, light.direction.z, light.peak, light.solid_angle,
+             100 * light.share);
+}
+
+void Info::run() const {
+  read.parse();
+  ordered_json all = ordered_json::array();
+  bool first = true;
+  for (const std::string& path : files) {
+    MapFileInfo info = inspect_map(path, read.parse());
+    if (!json) {
+      if (!first) fmt::print("\n");
+      print_header(path, info);
+    }
+    first = false;
+    ordered_json report = header_of(path, info);
+    if (info.shape && !header) {
+      const MapStatistics statistics = measure(read.read(path).map, progress_monitor("info"));
+      end_progress();
+      if (!json) print_statistics(statistics);
+      report["statistics"] = statistics_of(statistics);
+    }
+    all.push_back(std::move(report));
+  }
+  if (json) fmt::print("{}\n", (files.size() == 1 ? all[0] : all).dump(2, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+  auto info = std::make_shared<Info>();
+  CLI::App* command = app.add_subcommand("info", "Tell what a file is: format, parameterization, luminance, brightest light");
+  command->add_option("FILE", info->files, "Maps to read")->required();
+  command->add_flag("--header", info->header, "Only what the header says; read no pixels");
+  command->add_flag("--json", info->json, "Machine-readable, on standard output");
+  info->read.add(*command);
+  command->callback([info] { info->run(); });
+}
+
+}  // namespace welkin::cli

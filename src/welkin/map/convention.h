@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "welkin/math/rotation.h"
+#include "welkin/sphere/registry.h"
+
+namespace welkin {
+
+/// How another program's world lies in a file: what `--convention NAME` means. Each matrix takes a direction
+/// of the native world (docs/conventions.md, which also lists how each program's axes are identified with
+/// ours) to the direction that the parameterization's formulas are given: it is a Map's `orientation`. All
+/// are orthonormal, and hold only 0, 1 and −1.
+struct Convention {
+  std::string name;
+  std::string description;
+  /// For panoramas (latlong, equal-area, sky-latlong, cylinder, mercator, openexr-latlong): a turn about +Y,
+  /// since up stays up and a picture is never mirrored.
+  Matrix3 latlong;
+  /// For maps that shaders look up by coordinates (cubes, octahedra, paraboloids, healpix): the coordinates
+  /// that the program looks a cube map up with. A reflection (determinant −1) where they are left-handed;
+  /// identity for a program without cube maps.
+  Matrix3 lookup;
+  /// For angular and fisheye pictures: a turn, as `latlong`.
+  Matrix3 disc;
+  /// Where the look-up can be read: file names and functions, or a document.
+  std::string source;
+};
+
+/// All presets. The first is `native`: identity.
+const std::vector<Convention>& conventions();
+
+/// Throws Error for a name that conventions() lacks; the message suggests the nearest.
+const Convention& convention_from_name(std::string_view name);
+
+/// The orientation of a map of this parameterization in a file of this convention. Identity for photographs
+/// of balls (sphere, mirror-ball) and the half-cube, which no preset turns.
+Matrix3 orientation_for(const Convention& convention, const sphere::AnyParameterization& parameterization);
+
+}  // namespace welkin
