@@ -1,14 +1,15 @@
 #include "command.h"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <mutex>
 
-#include "terminal.h"
+#include "welkin/io/output_file.h"
 #include "welkin/map/convention.h"
 
 namespace welkin::cli {
@@ -34,6 +35,25 @@ io::Colour parse_colour(std::string_view option, const std::string& text) {
 }
 
 }  // namespace
+
+CLI::Validator finite_number(double least) {
+  const auto check = [least](std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !std::isfinite(value)) return "'" + text + "' is not a number";
+    return value < least ? fmt::format("{} is below {}", text, least) : std::string();
+  };
+  return CLI::Validator(check, "");
+}
+
+std::string printable(std::string text) {
+  constexpr std::size_t kLongest = 200;
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "…";
+  return text;
+}
 
 std::vector<double> parse_numbers(std::string_view option, const std::string& text) {
   std::vector<double> numbers;
@@ -90,7 +110,7 @@ void ReadFlags::add(CLI::App& command) {
   command.add_option("--from-convention", convention, "World of the input: three.js, blender… (`welkin list conventions`)");
   command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb")->capture_default_str();
   command.add_option("--channels", channels, "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
-  command.add_option("--part", part, "Which picture of a file with several (from 0)");
+  command.add_option("--part", part, "Which picture of a file with several (from 0)")->check(CLI::Range(0, 1 << 30));
 }
 
 ReadMapOptions ReadFlags::parse() const {
@@ -101,7 +121,13 @@ ReadMapOptions ReadFlags::parse() const {
   }
   options.faces = faces;
   if (!channels.empty()) options.channels = split_list(channels);
-  options.part = part;
+  for (const std::string& channel : options.channels) {
+    if (channel.empty()) throw UsageError("--channels: '" + channels + "' has an empty name");
+    if (std::count(options.channels.begin(), options.channels.end(), channel) > 1) {
+      throw UsageError("--channels: '" + channel + "' is named twice");
+    }
+  }
+  options.part = static_cast<std::size_t>(part);
   options.image.colour = parse_colour("--colour", colour);
   if (!convention.empty()) parse_option("--from-convention", [&] { return convention_from_name(convention); });
   return options;
@@ -109,6 +135,13 @@ ReadMapOptions ReadFlags::parse() const {
 
 LoadedMap ReadFlags::read(const std::string& path) const {
   ReadMapOptions options = parse();
+  if (!faces.empty()) {
+    ReadMapOptions unturned = options;
+    unturned.faces.clear();
+    if (const auto shape = inspect_map(path, unturned).shape) {
+      parse_option("--from-faces", [&] { return with_faces(shape->layout, shape->parameterization, faces); });
+    }
+  }
   if (!convention.empty()) {
     const MapFileInfo info = inspect_map(path, options);
     if (info.shape) {
@@ -142,6 +175,39 @@ WriteMapOptions WriteFlags::parse() const {
     if (!options.image.type) throw UsageError("--type: " + unknown_name("pixel type", type, names));
   }
   return options;
+}
+
+void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags) {
+  const Layout& layout = shape.layout;
+  if (!flags.faces.empty()) {
+    parse_option("--to-faces", [&] { return with_faces(layout, shape.parameterization, flags.faces); });
+  }
+  std::string extension = std::filesystem::path(path).extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::vector<std::string> known = io::writable_extensions();
+  if (std::count(known.begin(), known.end(), extension) == 0) {
+    throw UsageError(path + ": " + (extension.empty() ? fmt::format("the name has no extension to tell the format by (one of: {})", fmt::join(known, ", "))
+                                                      : unknown_name("extension", extension, known)));
+  }
+  const std::size_t place = path.find("%s");
+  const bool pattern = place != std::string::npos;
+  if (pattern != (layout.kind == LayoutKind::files)) {
+    throw UsageError(path + (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
+                                     : ": several files are written: put %s in the name, where the face's name goes"));
+  }
+  const auto try_file = [](const std::string& file) {
+    try {
+      const io::OutputFile unwritten(file);
+    } catch (const Error& error) {
+      throw Error(file + ": " + error.what());
+    }
+  };
+  if (!pattern) return try_file(path);
+  for (const std::string& name : chart_names(shape.parameterization)) {
+    try_file(std::string(path).replace(place, 2, name));
+  }
 }
 
 void report_losses(const std::string& path, const io::WriteReport& report) {

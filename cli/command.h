@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,12 @@ void add_synth(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_list(CLI::App& app);
 
+/// Accepts finite numbers of at least `least`.
+CLI::Validator finite_number(double least = -std::numeric_limits<double>::max());
+
+/// Text of a file or a pipe for the terminal: control characters become `?`, and a long text is cut.
+std::string printable(std::string text);
+
 /// `1,2.5,-3`: numbers separated by commas. Throws UsageError, naming the option.
 std::vector<double> parse_numbers(std::string_view option, const std::string& text);
 
@@ -56,7 +63,7 @@ void end_progress();
 /// Options of every command that reads a map, with a prefix for commands that read two (`--from`, `--from-faces`…).
 struct ReadFlags {
   std::string from, faces, convention, colour = "auto", channels;
-  std::size_t part = 0;
+  int part = 0;
 
   void add(CLI::App& command);
   /// Throws UsageError.
@@ -74,6 +81,10 @@ struct WriteFlags {
   /// Throws UsageError.
   WriteMapOptions parse() const;
 };
+
+/// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't fit
+/// (extension, `%s`, faces), Error for a folder that doesn't take the file.
+void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags = {});
 
 /// Warns on stderr of values that a format could not hold.
 void report_losses(const std::string& path, const io::WriteReport& report);

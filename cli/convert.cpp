@@ -49,13 +49,17 @@ void Convert::run() const {
   std::optional<MapShape> shape;
   if (!to.empty()) shape = parse_option("--to", [&] { return parse_map_shape(to); });
   if (!convention.empty()) parse_option("--to-convention", [&] { return convention_from_name(convention); });
-  if (shape && !write.faces.empty()) {
-    parse_option("--to-faces", [&] { return with_faces(shape->layout, shape->parameterization, write.faces); });
-  }
+  if (shape) check_output(out, *shape, write);
   if (shape && !size.empty()) parse_chart_size("--size", size, shape->parameterization);
 
   LoadedMap source = read.read(in);
-  if (!shape) shape = source.info.shape;
+  if (!shape) {
+    shape = source.info.shape;
+    check_output(out, *shape, write);
+  }
+  if (options.fill.size() > static_cast<std::size_t>(source.map.channels())) {
+    throw UsageError(fmt::format("--fill: {} values, but {} has {} channels", options.fill.size(), in, source.map.channels()));
+  }
   const ChartSize chart = size.empty() ? default_chart_size(source.map, shape->parameterization)
                                        : parse_chart_size("--size", size, shape->parameterization);
   if (sanitize) {
@@ -63,6 +67,7 @@ void Convert::run() const {
     fmt::print(stderr, "welkin: {}: {} NaN or infinite values replaced\n", in, replaced);
     fill_borders(source.map);
   }
+  shape = for_chart_size(*shape, chart);
   Map target(shape->parameterization, chart.width, chart.height, source.map.channels());
   target.channel_names = source.map.channel_names;
   target.orientation = convention.empty() ? Matrix3{} : orientation_for(convention_from_name(convention), shape->parameterization);
@@ -91,8 +96,8 @@ void add_convert(CLI::App& app) {
                       "Turn the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
   command->add_option("--convention,--to-convention", convert->convention,
                       "World of the output: three.js, blender… (`welkin list conventions`)");
-  command->add_option("--exposure", convert->exposure, "Brighten by this many stops");
-  command->add_option("--scale", convert->scale, "Multiply radiance");
+  command->add_option("--exposure", convert->exposure, "Brighten by this many stops")->check(finite_number());
+  command->add_option("--scale", convert->scale, "Multiply radiance")->check(finite_number());
   command->add_option("--fill", convert->fill,
                       "Value, one per channel, where the input shows nothing or the output has no place. Default: 0");
   command->add_flag("--allow-ringing", convert->allow_ringing,

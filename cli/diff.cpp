@@ -50,6 +50,7 @@ void Diff::run() const {
   ReadFlags read_b = read;
   if (!from_b.empty()) read_b.from = from_b;
   parse_option("--from-b", [&] { return read_b.parse(); });
+  if (!heat.empty()) check_output(heat, parse_map_shape("latlong"));
   const LoadedMap reference = read.read(a), other = read_b.read(b);
   options.monitor = progress_monitor("diff");
   std::optional<Map> picture;
@@ -92,9 +93,10 @@ void add_diff(CLI::App& app) {
   command->add_option("--filter", diff->filter, "How the coarser map is read: nearest, bilinear, bicubic, lanczos")
       ->capture_default_str();
   command->add_option("--peak", diff->peak, "What PSNR is relative to. Default: 1, or A's maximum where that is above 1")
-      ->check(CLI::NonNegativeNumber);
+      ->check(finite_number(0));
   command->add_option("--heat", diff->heat, "Write a picture of the relative error (lat-long, colour scale 1e-5 to 1)");
-  command->add_option("--fail-above", diff->fail_above, "Exit with status 1 when the relative RMSE is above this");
+  command->add_option("--fail-above", diff->fail_above, "Exit with status 1 when the relative RMSE is above this")
+      ->check(finite_number(0));
   command->add_flag("--json", diff->json, "Machine-readable, on standard output");
   diff->read.add(*command);
   command->callback([diff] { diff->run(); });

@@ -88,12 +88,12 @@ void print_header(const std::string& path, const MapFileInfo& info) {
   for (const io::PartInfo& part : info.image.parts) {
     std::string channels;
     for (const std::string& channel : part.channels) channels += (channels.empty() ? "" : " ") + channel;
-    fmt::print("  picture{:<10} {}×{}, {} of {}, compression {}\n", part.name.empty() ? "" : " " + part.name,
-               part.width, part.height, channels, name_of(part.type), part.compression);
+    fmt::print("  picture{:<10} {}×{}, {} of {}, compression {}\n", part.name.empty() ? "" : " " + printable(part.name),
+               part.width, part.height, printable(channels), name_of(part.type), part.compression);
   }
   for (const std::string& note : info.image.notes) fmt::print("  note              {}\n", note);
   for (const auto& [key, value] : info.image.attributes) {
-    fmt::print("  {:<17} {}\n", key, value.substr(0, value.find('\n')));
+    fmt::print("  {:<17} {}\n", printable(key), printable(value.substr(0, value.find('\n'))));
   }
   if (info.shape) {
     fmt::print("  parameterization  {} ({}), charts {}×{}×{}\n", info.shape->text(), info.reason,

@@ -13,20 +13,29 @@ namespace {
 
 using namespace welkin;
 
-/// `unexpected --szie; did you mean '--size'?`
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  return names;
+}
+
+/// What is wrong with words that the parser didn't expect: `unknown option '--szie'; did you mean '--size'?`
 std::string explain_extras(const CLI::App& app, const std::string& what) {
   const CLI::App* command = &app;
-  for (const CLI::App* each : app.get_subcommands()) command = each;
-  std::string message = what;
-  for (const std::string& extra : command->remaining()) {
-    if (extra.rfind("-", 0) != 0) continue;
-    std::vector<std::string> known;
-    for (const CLI::Option* option : command->get_options()) {
-      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  std::vector<std::string> options;
+  for (const CLI::App* each : {command, &app}) {
+    for (const CLI::Option* option : each->get_options()) {
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
     }
-    return unknown_name("option", extra.substr(0, extra.find('=')), known);
+    if (command == &app) break;
   }
-  return message;
+  const std::vector<std::string> commands = command_names(*command);
+  for (const std::string& extra : app.remaining(true)) {
+    if (extra.size() > 1 && extra.front() == '-') return unknown_name("option", extra.substr(0, extra.find('=')), options);
+    if (!commands.empty()) return unknown_name("command", extra, commands);
+  }
+  return what;
 }
 
 int run(int argc, char** argv) {
@@ -46,9 +55,9 @@ int run(int argc, char** argv) {
   cli::add_synth(app);
   cli::add_plot(app);
   cli::add_list(app);
-  std::string topic;
+  std::vector<std::string> topics;
   CLI::App* help = app.add_subcommand("help", "Help on a command");
-  help->add_option("COMMAND", topic);
+  help->add_option("COMMAND", topics, "As `convert`, or `plot density`");
   app.footer("`welkin help COMMAND` tells more. Documentation: docs/ in the source, README.md first.");
 
   std::unique_ptr<tbb::global_control> limit;
@@ -62,23 +71,20 @@ int run(int argc, char** argv) {
                                                  : cli::ProgressMode::automatic);
   });
 
-  std::vector<std::string> commands;
-  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
-  const auto unknown_command = [&](const std::string& name) {
-    fmt::print(stderr, "welkin: {}\n", unknown_name("command", name, commands));
-    return 2;
-  };
+  const std::vector<std::string> commands = command_names(app);
   if (argc > 1 && argv[1][0] != '-' && std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
-    return unknown_command(argv[1]);
+    throw cli::UsageError(unknown_name("command", argv[1], commands));
   }
   help->callback([&] {
-    if (topic.empty()) {
-      fmt::print("{}", app.help());
-    } else if (std::find(commands.begin(), commands.end(), topic) != commands.end()) {
-      fmt::print("{}", app.get_subcommand(topic)->help());
-    } else {
-      throw cli::UsageError(unknown_name("command", topic, commands));
+    const CLI::App* command = &app;
+    std::string before;
+    for (const std::string& topic : topics) {
+      const std::vector<std::string> names = command_names(*command);
+      if (std::find(names.begin(), names.end(), topic) == names.end()) throw cli::UsageError(unknown_name("command", topic, names));
+      before += (before.empty() ? "" : " ") + command->get_name();
+      command = command->get_subcommand(topic);
     }
+    fmt::print("{}", command->help(before));
   });
   if (argc == 1) {
     fmt::print("{}", app.help());
@@ -89,13 +95,17 @@ int run(int argc, char** argv) {
     return 0;
   } catch (const CLI::Success& success) {
     return app.exit(success);
-  } catch (const CLI::ExtrasError& error) {
-    fmt::print(stderr, "welkin: {}\n", explain_extras(app, error.what()));
-    return 2;
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "welkin: {}\n", error.what());
-    return 2;
+    throw cli::UsageError(explain_extras(app, error.what()));
   }
+}
+
+/// Ends what was being shown before it says what went wrong.
+int report(int status, const char* what) {
+  cli::end_progress();
+  std::fflush(stdout);
+  fmt::print(stderr, "welkin: {}\n", what);
+  return status;
 }
 
 }  // namespace
@@ -105,21 +115,14 @@ int main(int argc, char** argv) {
   try {
     const int status = run(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      fmt::print(stderr, "welkin: standard output: cannot be written\n");
-      return 1;
+      return report(1, "standard output: cannot be written");
     }
     return status;
   } catch (const cli::UsageError& error) {
-    cli::end_progress();
-    fmt::print(stderr, "welkin: {}\n", error.what());
-    return 2;
+    return report(2, error.what());
   } catch (const std::bad_alloc&) {
-    cli::end_progress();
-    fmt::print(stderr, "welkin: out of memory\n");
-    return 1;
+    return report(1, "out of memory");
   } catch (const std::exception& error) {
-    cli::end_progress();
-    fmt::print(stderr, "welkin: {}\n", error.what());
-    return 1;
+    return report(1, error.what());
   }
 }

@@ -27,6 +27,7 @@ void PlotDensity::run() const {
   } else {
     list.push_back(parse_option("--of", [&] { return parse_map_shape(of).parameterization; }));
   }
+  if (!out.empty()) check_output(out, parse_map_shape("latlong"));
   ordered_json all = ordered_json::array();
   if (!json) fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "solid angle / average", "min", "max", "ratio", "limit ratio");
   for (const auto& p : list) {
@@ -58,6 +59,8 @@ struct PlotMips {
   double exposure = 0;
 
   void run() const {
+    read.parse();
+    check_output(out, parse_map_shape("latlong"));
     const LoadedMap loaded = read.read(in);
     const Image sheet = draw_mip_sheet(loaded.map, exposure);
     const io::WritePart part{"", sheet.view(), {"R", "G", "B"}};
@@ -83,7 +86,7 @@ void add_plot(CLI::App& app) {
   command = plot->add_subcommand("mips", "A map's pyramid twice: plain 2×2 averages above, weighted by solid angle below");
   command->add_option("IN", mips->in, "Map to read")->required();
   command->add_option("OUT", mips->out, "Picture to write")->required();
-  command->add_option("--exposure", mips->exposure, "Brighten the picture by this many stops");
+  command->add_option("--exposure", mips->exposure, "Brighten the picture by this many stops")->check(finite_number());
   mips->read.add(*command);
   command->callback([mips] { mips->run(); });
 }

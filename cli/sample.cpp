@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -21,9 +22,9 @@ struct Sample {
 };
 
 Vec3d checked(const std::string& where, double x, double y, double z) {
-  const double length2 = x * x + y * y + z * z;
-  if (!std::isfinite(length2) || !(length2 > 0)) throw UsageError(where + " is not a direction");
-  return {x, y, z};
+  const double longest = std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || longest == 0) throw UsageError(where + " is not a direction");
+  return {x / longest, y / longest, z / longest};
 }
 
 void print_values(const Map& map, const Level& level, const std::vector<Vec3d>& directions, Filter filter) {
@@ -59,7 +60,7 @@ void Sample::run() const {
     double x = 0, y = 0, z = 0;
     std::string rest;
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::string where = fmt::format("standard input, line {}: '{}'", number, line);
+    const std::string where = fmt::format("standard input, line {}: '{}'", number, printable(line));
     if (!(words >> x >> y >> z) || words >> rest) throw UsageError(where + " is not x y z");
     print_values(loaded.map, used, {checked(where, x, y, z)}, how);
   }

@@ -18,10 +18,17 @@ struct Synth {
 
 void Synth::run() const {
   const WriteMapOptions write_options = write.parse();
-  const synth::Radiance radiance = parse_option("synth", [&] { return synth::make(name, options); });
-  const MapShape shape = parse_option("--to", [&] { return parse_map_shape(to); });
+  synth::Radiance radiance;
+  try {
+    radiance = synth::make(name, options);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  MapShape shape = parse_option("--to", [&] { return parse_map_shape(to); });
+  check_output(out, shape, write);
   const std::string text = !size.empty() ? size : shape.parameterization.charts() == 1 ? "1024" : "256";
   const ChartSize chart = parse_chart_size("--size", text, shape.parameterization);
+  shape = for_chart_size(shape, chart);
   RenderOptions render_options;
   render_options.samples = samples;
   if (!convention.empty()) {
@@ -48,7 +55,7 @@ void add_synth(CLI::App& app) {
   command->add_option("--convention,--to-convention", synth->convention, "World of the output: three.js, blender…");
   command->add_option("--samples", synth->samples, "Samples per texel, squared")->check(CLI::Range(1, 64))->capture_default_str();
   auto& o = synth->options;
-  command->add_option("--seed", o.seed, "lamps: which ones")->capture_default_str();
+  command->add_option("--seed", o.seed, "lamps: which ones")->check(finite_number(0))->capture_default_str();
   command->add_option("--frequency", o.frequency, "checker: cells around; lines: meridians; zoneplate: cycles per radian at −Z; lamps: how many");
   command->add_option("--angle", o.angle, "Degrees. sun, sky: the sun's diameter; lines: their width; lamps: their diameter");
   command->add_option("--intensity", o.intensity, "sun: its radiance; lamps: their median; others: a factor");

@@ -128,7 +128,8 @@ class JpegReader : public Reader {
                     " components of unknown meaning");
     }
     check_size(source_, codec.image_width, codec.image_height, channels.size());
-    // Huffman coding spends at least a bit on each block of 8×8 of the first component.
+    // Huffman coding spends at least a bit on each block of 8×8 of the first component, which may be sampled
+    // at a sixteenth of the picture's resolution.
     const std::uint64_t blocks = std::uint64_t{codec.image_width} * codec.image_height / (DCTSIZE2 * 16);
     if (codec.arith_code == FALSE && blocks / 8 > source_.bytes.size()) {
       throw Error(source_.name + ": " + std::to_string(source_.bytes.size()) + " bytes cannot hold " +

@@ -93,7 +93,7 @@ TEST(Jpeg, ColourIsAtFullResolution) {
   std::size_t at = 0;
   while (at + 19 < bytes.size() && !(bytes[at] == std::byte{0xff} && bytes[at + 1] == std::byte{0xc0})) ++at;
   ASSERT_LT(at + 19, bytes.size());
-  for (const std::size_t component : {0, 1, 2}) EXPECT_EQ(bytes[at + 11 + 3 * component], std::byte{0x11});
+  for (const std::size_t component : {0u, 1u, 2u}) EXPECT_EQ(bytes[at + 11 + 3 * component], std::byte{0x11});
 }
 
 TEST(Jpeg, ProgressiveIsRead) {

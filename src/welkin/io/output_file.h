@@ -8,9 +8,13 @@
 
 namespace welkin::io {
 
-/// A file that appears under its name only when `commit` has succeeded. Until then the bytes are in a temporary file
-/// beside it, which the destructor removes, and which remove_unfinished_outputs removes from a signal handler.
-/// Writes that fail (full disk…) throw Error with the system's reason, without the file's name.
+/// A file that appears under its name only when `commit` has succeeded. Until then the bytes are in a
+/// temporary file beside it, which the destructor removes, and which remove_unfinished_outputs removes from a
+/// signal handler. Writes that fail (full disk…) throw Error with the system's reason, without the file's
+/// name.
+///
+/// A symbolic link stays and its target is replaced; an older file's permissions are kept. A device or a pipe
+/// is written through by `commit`, from a spool that allows seeking. At most 256 can be unfinished at once.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& path);
@@ -33,7 +37,8 @@ class OutputFile {
   std::unique_ptr<State> state_;
 };
 
-/// A whole file, read-only, mapped into memory.
+/// A whole file, read-only, mapped into memory; a pipe is read to its end. Throws Error, `FILE: reason`. As
+/// with any mapping, a file that somebody shortens meanwhile ends the process (SIGBUS).
 class InputFile {
  public:
   explicit InputFile(const std::filesystem::path& path);

@@ -18,6 +18,12 @@ constexpr double kSamplesPerTexel = 2;
 /// Lanczos interpolation hardly aliases up to here, and averaging earlier blurs a round trip (bench/round_trip).
 constexpr float kInterpolated = 1.25f;
 
+/// A side of a texel, at least an eighth as long as the other one: the slivers at a pole are not worth a sample each.
+Vec3d widened(const Vec3d& side, const Vec3d& other) {
+  const double long_enough = length(other) / 8, now = length(side);
+  return now > 0 && now < long_enough ? (long_enough / now) * side : side;
+}
+
 }  // namespace
 
 float spread(float texels) {
@@ -55,10 +61,13 @@ Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_s
   const auto& s = source.parameterization;
   const auto place = s.from_sphere(to_source * t.to_sphere(chart, u, v));
   const int source_chart = static_cast<int>(place.chart);
-  const Vec3d texel_right = step(s, source_chart, place.u, place.v, 1.0 / source.width(), 0);
-  const Vec3d texel_down = step(s, source_chart, place.u, place.v, 0, 1.0 / source.height());
+  // Half a texel inside the chart: past an octahedron's edge the texels come back, and their difference would vanish.
+  const double texel_u = 1.0 / source.width(), texel_v = 1.0 / source.height();
+  const double su = clamp(place.u, 0.5 * texel_u, 1 - 0.5 * texel_u), sv = clamp(place.v, 0.5 * texel_v, 1 - 0.5 * texel_v);
+  const Vec3d across = step(s, source_chart, su, sv, texel_u, 0), along = step(s, source_chart, su, sv, 0, texel_v);
+  const Vec3d texel_right = widened(across, along), texel_down = widened(along, across);
 
-  // Least squares: texel_right·a + texel_down·b ≈ step. At a pole one of the two vanishes; the small term keeps it finite.
+  // Least squares: texel_right·a + texel_down·b ≈ step. The small term keeps it finite where the two are parallel.
   const double tiny = 1e-14 + 1e-9 * (dot(texel_right, texel_right) + dot(texel_down, texel_down));
   const double rr = dot(texel_right, texel_right) + tiny, dd = dot(texel_down, texel_down) + tiny;
   const double rd = dot(texel_right, texel_down);

@@ -56,8 +56,8 @@ std::vector<Layout> cube_layouts() {
                    picture_of(pz, 1, 1), picture_of(nz, 2, 1)}});
   // Two bands of three joined faces: left front right; bottom back top, these on their side.
   list.push_back({"bands", LayoutKind::picture, 3, 2,
-                  {picture_of(px, 0, 0), picture_of(pz, 1, 0), picture_of(nx, 2, 0), picture_of(ny, 0, 1, 1),
-                   picture_of(nz, 1, 1, 3), picture_of(py, 2, 1, 1)}});
+                  {picture_of(px, 0, 0), picture_of(pz, 1, 0), picture_of(nx, 2, 0), picture_of(ny, 0, 1, 3),
+                   picture_of(nz, 1, 1, 1), picture_of(py, 2, 1, 3)}});
   // The strip of EXR files with `envmap = cube` (ImfEnvmap.h).
   list.push_back({"openexr", LayoutKind::picture, 1, 6,
                   {picture_of(px, 0, 0), picture_of(nx, 0, 1), picture_of(py, 0, 2, 2), picture_of(ny, 0, 3, 2),
@@ -92,7 +92,7 @@ int chart_from_name(const sphere::AnyParameterization& p, std::string name) {
   }
   const std::vector<std::string> names = chart_names(p);
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw Error("--faces: " + unknown_name("face", name, names));
+  if (found == names.end()) throw Error(unknown_name("face", name, names));
   return static_cast<int>(found - names.begin());
 }
 
@@ -137,6 +137,12 @@ const std::vector<Layout>& layouts_of(const sphere::AnyParameterization& p) {
   static const std::vector<Layout> cube = cube_layouts();
   static const std::vector<Layout> one = plain_layouts(1, 1), two = plain_layouts(2, 2), eight = plain_layouts(8, 4),
                                    twelve = plain_layouts(12, 4);
+  static const std::vector<Layout> openexr_cube = [] {
+    std::vector<Layout> list = cube;
+    std::stable_partition(list.begin(), list.end(), [](const Layout& layout) { return layout.name == "openexr"; });
+    return list;
+  }();
+  if (p.name() == "openexr-cube") return openexr_cube;
   switch (p.charts()) {
     case 1: return one;
     case 2: return two;
@@ -181,6 +187,15 @@ MapShape parse_map_shape(std::string_view text) {
   throw Error(unknown_name("layout of " + parameterization.name(), wanted, names));
 }
 
+MapShape for_chart_size(const MapShape& shape, ChartSize size) {
+  const std::vector<sphere::Parameter> parameters = shape.parameterization.parameters();
+  const auto sized = [](const sphere::Parameter& each) { return each.name == "width" || each.name == "height"; };
+  if (!std::any_of(parameters.begin(), parameters.end(), sized)) return shape;
+  return {sphere::AnyParameterization::make(shape.parameterization.name() + ",width=" + std::to_string(size.width) +
+                                            ",height=" + std::to_string(size.height)),
+          shape.layout};
+}
+
 Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& p) {
   if (p.charts() != 6 || layout.kind == LayoutKind::layers) return layout;
   Layout changed = layout;
@@ -195,7 +210,7 @@ Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterizati
 Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, std::string_view faces) {
   const std::vector<std::string> parts = split(faces, ',');
   if (parts.size() != layout.cells.size()) {
-    throw Error("--faces names " + std::to_string(parts.size()) + " faces, but " + p.name() + " has " +
+    throw Error("names " + std::to_string(parts.size()) + " faces, but " + p.name() + " has " +
                 std::to_string(layout.cells.size()));
   }
   Layout changed = layout;
@@ -207,7 +222,7 @@ Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, st
     const std::vector<std::string> words = split(parts[i], ':');
     LayoutCell& cell = changed.cells[i];
     cell.chart = chart_from_name(p, words[0]);
-    if (seen[static_cast<std::size_t>(cell.chart)]) throw Error("--faces names '" + words[0] + "' twice");
+    if (seen[static_cast<std::size_t>(cell.chart)]) throw Error("names '" + words[0] + "' twice");
     seen[static_cast<std::size_t>(cell.chart)] = true;
     for (std::size_t k = 1; k < words.size(); ++k) {
       if (words[k] == "mirror") {
@@ -217,10 +232,10 @@ Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, st
       } else if (words[k] == "0" || words[k] == "90" || words[k] == "180" || words[k] == "270") {
         cell.quarter_turns = (cell.quarter_turns + std::stoi(words[k]) / 90) & 3;
       } else {
-        throw Error("--faces: '" + parts[i] + "': after the face come 90, 180, 270 or mirror, not '" + words[k] + "'");
+        throw Error("'" + parts[i] + "': after the face come 90, 180, 270 or mirror, not '" + words[k] + "'");
       }
     }
-    if ((cell.quarter_turns & 1) != 0 && p.aspect() != 1) throw Error("--faces: only square charts can be turned by 90°");
+    if ((cell.quarter_turns & 1) != 0 && p.aspect() != 1) throw Error("only square charts can be turned by 90°");
   }
   changed.name = layout.name;
   return changed;

@@ -51,6 +51,9 @@ struct MapShape {
 /// Parses NAME[:LAYOUT][,PARAMETER=VALUE]…. Throws Error for unknown names, with the nearest.
 MapShape parse_map_shape(std::string_view text);
 
+/// The shape of charts of this size. It differs where the parameterization depends on the size: parameters `width` and `height` follow it.
+MapShape for_chart_size(const MapShape& shape, ChartSize size);
+
 /// The layout for a map whose orientation is a reflection. Its native faces are unmirrored pictures already, so cells aren't mirrored,
 /// and where faces adjoin, +X and −X change places.
 Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& parameterization);

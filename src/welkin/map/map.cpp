@@ -46,7 +46,7 @@ std::vector<std::string> default_channel_names(int count) {
 }
 
 Map::Map(sphere::AnyParameterization which, int width, int height, int channels)
-    : parameterization(std::move(which)),
+    : parameterization(which.at_size(width, height)),
       level(parameterization.charts(), width, height, channels),
       channel_names(default_channel_names(channels)) {}
 

@@ -12,7 +12,8 @@
 #include "welkin/map/borders.h"
 #include "welkin/map/resample.h"
 
-/// What the tests of maps share: maps of every parameterization, functions to fill them with, and ways to compare.
+/// What the tests of maps share: maps of every parameterization, functions to fill them with, and ways to
+/// compare.
 namespace welkin::cases {
 
 using Function = std::function<double(const Vec3d& d)>;
@@ -98,7 +99,8 @@ inline Function zone_plate(double cycles) {
   };
 }
 
-/// Black and white cells of a grid of `cells` to the radian in space: no line of it follows a parameterization.
+/// Black and white cells of a grid of `cells` to the radian in space: no line of it follows a
+/// parameterization.
 inline Function checker(double cells) {
   return [cells](const Vec3d& d) {
     const Vec3d t{0.8 * d.x + 0.6 * d.y, -0.6 * d.x + 0.8 * d.y, d.z};
@@ -153,7 +155,8 @@ inline double psnr(const Map& a, const Map& b) {
   return -10 * std::log10(sum / values + 1e-30);
 }
 
-/// The mean over the covered sphere of channel 0. Solid angles of texels are integrated from 8×8 points of density.
+/// The mean over the covered sphere of channel 0. Solid angles of texels are integrated from 8×8 points of
+/// density.
 inline double mean_over_sphere(const Map& map) {
   constexpr int kPoints = 8;
   double sum = 0, total = 0;

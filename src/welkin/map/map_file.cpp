@@ -59,8 +59,9 @@ bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
   if (!size) return false;
   chart = *size;
   if (shape.parameterization.name() == "equal-area") return true;
-  const double wanted = shape.parameterization.aspect() * chart.height;
-  return std::fabs(wanted - chart.width) <= std::max(1.0, 0.01 * wanted);
+  const double wide = shape.parameterization.aspect() * chart.height;
+  const double high = chart.width / shape.parameterization.aspect();
+  return std::fabs(wide - chart.width) <= std::max(1.0, 0.01 * wide) || std::fabs(high - chart.height) < 1;
 }
 
 /// What a picture's size suggests.
@@ -87,6 +88,11 @@ Layout layout_for(const Layout& layout, const sphere::AnyParameterization& p, co
 std::string attribute(const io::FileInfo& file, const char* key) {
   const auto found = file.attributes.find(key);
   return found == file.attributes.end() ? std::string() : found->second;
+}
+
+/// Whether another program turned our map into the one that its `envmap` declares, and copied our declaration along.
+bool is_copied(const std::string& declared, const io::FileInfo& file) {
+  return file.envmap && !declared.starts_with("openexr-");
 }
 
 /// The channels to read: indices into the part's list.
@@ -118,10 +124,13 @@ std::vector<int> choose_channels(const std::string& name, const io::PartInfo& pa
 /// Opens the file, or the first of the files of a pattern.
 std::unique_ptr<io::Reader> open_first(const fs::path& path, const ReadMapOptions& options) {
   if (!is_pattern(path)) return io::open(path, options.image);
-  // Which charts there are depends on the shape; without one, the faces of a cube.
-  std::string first = "px";
-  if (options.shape) first = chart_names(parse_map_shape(*options.shape).parameterization).front();
-  return io::open(chart_path(path, first), options.image);
+  // What the charts are called depends on the shape; without one there may be faces of a cube, or numbered charts.
+  if (options.shape) {
+    return io::open(chart_path(path, chart_names(parse_map_shape(*options.shape).parameterization).front()),
+                    options.image);
+  }
+  const bool numbered = !fs::exists(chart_path(path, "px")) && fs::exists(chart_path(path, "0"));
+  return io::open(chart_path(path, numbered ? "0" : "px"), options.image);
 }
 
 MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options) {
@@ -135,15 +144,13 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
       shape.insert(std::min(shape.find(','), shape.size()), ":faces");
     }
     info.reason = "as asked";
-  } else if (!attribute(file, kShapeKey).empty()) {
+  } else if (!attribute(file, kShapeKey).empty() && !is_copied(attribute(file, kShapeKey), file)) {
     shape = attribute(file, kShapeKey);
     info.reason = "declared by the file";
     if (faces.empty()) faces = attribute(file, kFacesKey);
   } else if (file.envmap) {
     const bool cube = *file.envmap == "cube";
-    const int width = file.parts[0].width, height = file.parts[0].height / (cube ? 6 : 1);
     shape = cube ? "openexr-cube:openexr" : "openexr-latlong";
-    shape += ",width=" + std::to_string(width) + ",height=" + std::to_string(height);
     info.reason = "declared by the envmap attribute";
   } else if (const auto guessed = guess(file, pattern)) {
     shape = guessed->first;
@@ -193,12 +200,13 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
     std::snprintf(aspect, sizeof aspect, "%.4g",
                   info.shape->parameterization.aspect() * per_picture.layout.columns / per_picture.layout.rows);
     throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
-                " does not fit " + info.shape->text() + ", whose width is " + aspect + " times its height" +
+                " does not fit " + info.shape->text() + " (" + info.reason + "), whose width is " + aspect + " times its height" +
                 (per_picture.layout.columns * per_picture.layout.rows > 1
                      ? " in " + std::to_string(per_picture.layout.columns) + "×" +
                            std::to_string(per_picture.layout.rows) + " equal cells"
                      : ""));
   }
+  info.shape = for_chart_size(*info.shape, info.chart);
   return info;
 }
 
@@ -286,7 +294,14 @@ io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& la
   io::WriteOptions image = options.image;
   image.attributes[kShapeKey] = MapShape{p, layout}.text();
   if (!options.faces.empty()) image.attributes[kFacesKey] = options.faces;
-  if (!(map.orientation == Matrix3{})) image.attributes[kOrientationKey] = text_of(map.orientation);
+  // OpenEXR's attribute also says how the world lies: as the native one.
+  if (!(map.orientation == Matrix3{})) {
+    image.attributes[kOrientationKey] = text_of(map.orientation);
+  } else if (p.name() == "openexr-latlong") {
+    image.envmap = "latlong";
+  } else if (p.name() == "openexr-cube" && layout.name == "openexr" && options.faces.empty()) {
+    image.envmap = "cube";
+  }
 
   const auto turned_size = [&](const LayoutCell& cell) {
     const bool swap = (cell.quarter_turns & 1) != 0;

@@ -256,10 +256,10 @@ class Resampler {
   }
 
   /// The parallelogram through four corners, unless they lie in different charts, or it bends or twists by more than a
-  /// fraction of a texel, or it leaves the chart's border.
+  /// fraction of a texel, or the target's density is not linear over it, or it leaves the chart's border.
   static bool parallelogram(const LevelView& level, const Grid& corners, std::size_t corner, std::size_t row,
                             const Grid& centres, std::size_t centre, Parallelogram& out) {
-    constexpr float kMostBend = 0.25f;
+    constexpr float kMostBend = 0.25f, kMostUnevenness = 0.005f;
     const std::size_t at[4] = {corner, corner + 1, corner + row, corner + row + 1};
     const float chart = centres.chart[centre];
     float x[4], y[4];
@@ -292,6 +292,7 @@ class Resampler {
     out.down[0] = -right[1] / determinant;
     out.down[1] = right[0] / determinant;
     const float w[4] = {corners.weight[at[0]], corners.weight[at[1]], corners.weight[at[2]], corners.weight[at[3]]};
+    if (!(std::fabs(middle(w) - centres.weight[centre]) < kMostUnevenness * centres.weight[centre])) return false;
     const float scale = 0.5f / centres.weight[centre];
     out.gradient[0] = (w[1] + w[3] - w[0] - w[2]) * scale;
     out.gradient[1] = (w[2] + w[3] - w[0] - w[1]) * scale;

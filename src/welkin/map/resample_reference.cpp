@@ -17,7 +17,9 @@ struct Weights {
   std::array<double, 6> of{1.0};
 };
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(kPi * x) / (kPi * x); }
+double sinc(double x) {
+  return x == 0 ? 1 : std::sin(kPi * x) / (kPi * x);
+}
 
 /// A kernel's height, t texels from its middle.
 double kernel(Filter filter, double t) {
@@ -27,10 +29,13 @@ double kernel(Filter filter, double t) {
       // Keys 1981, eq. 4, a = −½.
       if (t < 1) return (1.5 * t - 2.5) * t * t + 1;
       return t < 2 ? ((-0.5 * t + 2.5) * t - 4) * t + 2 : 0;
-    case Filter::lanczos: return t < 3 ? sinc(t) * sinc(t / 3) : 0;
+    case Filter::lanczos:
+      return t < 3 ? sinc(t) * sinc(t / 3) : 0;
     case Filter::bilinear:
-    case Filter::automatic: return std::max(0.0, 1 - t);
-    case Filter::nearest: break;
+    case Filter::automatic:
+      return std::max(0.0, 1 - t);
+    case Filter::nearest:
+      break;
   }
   return t <= 0.5 ? 1 : 0;
 }
@@ -38,9 +43,12 @@ double kernel(Filter filter, double t) {
 /// Texels on each side of a place that a kernel reads.
 int reach(Filter filter) {
   switch (filter) {
-    case Filter::bicubic: return 2;
-    case Filter::lanczos: return 3;
-    default: return 1;
+    case Filter::bicubic:
+      return 2;
+    case Filter::lanczos:
+      return 3;
+    default:
+      return 1;
   }
 }
 
@@ -61,9 +69,10 @@ Weights weights_at(Filter filter, double place, int size) {
   return weights;
 }
 
-/// The rule of RingingFetch: at most half the range of the inner 4×4 texels beyond that range, and not below half the
-/// lowest.
-double hold(const ImageView<const float>& chart, const Weights& across, const Weights& down, int channel, double value) {
+/// The rule of RingingFetch: at most half the range of the inner 4×4 texels beyond that range, and not below
+/// half the lowest.
+double hold(const ImageView<const float>& chart, const Weights& across, const Weights& down, int channel,
+            double value) {
   const int margin = (across.count - 4) / 2;
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (int j = 0; j < 4; ++j) {

@@ -147,18 +147,32 @@ struct Size {
 };
 
 TEST(ResampleTest, EnergyIsKeptDownToTheSmallestTargets) {
-  // Relative error of the mean over the sphere: texels' areas are exact to the source's texel; below faces of
-  // 4, texels span many charts, and samples (at most 4096) stand for them.
+  // Relative error of the mean over the sphere, nearly all of which comes from four lamps. A texel over a
+  // fold (the middle of an odd octahedron) or over several charts (below faces of 4) is no parallelogram:
+  // hence two tolerances.
+  constexpr double kRegular = 5e-3, kFolded = 3e-2;
   const std::pair<Size, double> targets[] = {
-      {{"latlong", 37, 19}, 1e-3},    {{"latlong", 16, 8}, 1e-3},   {{"cube", 7, 7}, 1e-3},
-      {{"cube", 4, 4}, 1e-3},         {{"octahedral", 9, 9}, 1e-3}, {{"octahedral", 8, 8}, 1e-3},
-      {{"eac", 5, 5}, 1e-3},          {{"healpix", 4, 4}, 1e-3},    {{"octahedral-equal-area", 7, 7}, 1e-3},
-      {{"equal-area", 12, 5}, 1e-3},  {{"cube", 1, 1}, 5e-3},       {{"cube", 2, 2}, 5e-3},
-      {{"latlong", 2, 1}, 5e-3},      {{"latlong", 1, 1}, 5e-3},    {{"octahedral", 1, 1}, 5e-3},
-      {{"paraboloid", 16, 16}, 5e-3}, {{"angular", 17, 17}, 5e-3},
+      {{"latlong", 37, 19}, kRegular},
+      {{"latlong", 16, 8}, kRegular},
+      {{"cube", 7, 7}, kRegular},
+      {{"cube", 4, 4}, kRegular},
+      {{"octahedral", 9, 9}, kRegular},
+      {{"octahedral", 8, 8}, kRegular},
+      {{"eac", 5, 5}, kRegular},
+      {{"healpix", 4, 4}, kRegular},
+      {{"octahedral-equal-area", 8, 8}, kRegular},
+      {{"equal-area", 12, 5}, kRegular},
+      {{"cube", 2, 2}, kRegular},
+      {{"octahedral-equal-area", 7, 7}, kFolded},
+      {{"cube", 1, 1}, kFolded},
+      {{"latlong", 2, 1}, kFolded},
+      {{"latlong", 1, 1}, kFolded},
+      {{"octahedral", 1, 1}, kFolded},
+      {{"paraboloid", 16, 16}, kRegular},
+      {{"angular", 17, 17}, kRegular},
   };
   for (const char* source_name : {"latlong", "cube", "octahedral"}) {
-    const Map source = rendered(source_name, 90, high_contrast);
+    const Map source = rendered(source_name, 200, high_contrast);
     const double expected = mean_over_sphere(source);
     for (const auto& [size, tolerance] : targets) {
       Map target(sphere::AnyParameterization::make(size.name), size.width, size.height, 1);

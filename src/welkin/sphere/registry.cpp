@@ -1,6 +1,6 @@
 #include "welkin/sphere/registry.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -168,6 +168,15 @@ AnyParameterization AnyParameterization::make(std::string_view spec) {
     return AnyParameterization(std::shared_ptr<const Model>(std::move(made)));
   }
   throw Error(unknown_name("parameterization", name, parameterization_names()));
+}
+
+AnyParameterization AnyParameterization::at_size(int width, int height) const {
+  const std::vector<Parameter> now = parameters();
+  if (now.size() != 2 || now[0].name != "width" || now[1].name != "height") return *this;
+  std::unique_ptr<Model> made = model_->with_defaults();
+  made->set("width", std::max(width, 2));
+  made->set("height", std::max(height, 2));
+  return AnyParameterization(std::shared_ptr<const Model>(std::move(made)));
 }
 
 std::string AnyParameterization::name() const { return model_->name(); }

@@ -33,6 +33,9 @@ class AnyParameterization {
   std::string spec() const;
   std::vector<Parameter> parameters() const;
 
+  /// The same for charts of this size: where the edges of an edge-centred one lie depends on it. Others don't change.
+  AnyParameterization at_size(int width, int height) const;
+
   int charts() const;
   double aspect() const;    ///< width / height of a chart with square texels
   double coverage() const;  ///< sr

@@ -1,0 +1,19 @@
+// Prints the radiance that comes from a direction, one value per channel: sample_direction MAP X Y Z
+#include <welkin/map/map_file.h>
+#include <welkin/map/sample.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+int main(int argc, char** argv) try {
+  if (argc != 5) throw welkin::Error("usage: sample_direction MAP X Y Z");
+  const welkin::Map map = welkin::read_map(argv[1]).map;
+  const welkin::Vec3d direction{std::atof(argv[2]), std::atof(argv[3]), std::atof(argv[4])};
+  if (!(welkin::dot(direction, direction) > 0)) throw welkin::Error("X Y Z is not a direction");
+  std::vector<float> radiance(static_cast<std::size_t>(map.channels()));
+  welkin::sample(map, map.level, {&direction, 1}, welkin::Filter::bicubic, radiance);
+  for (const float value : radiance) std::printf("%.9g\n", static_cast<double>(value));
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "sample_direction: %s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,148 @@
+#include "welkin/map/borders.h"
+
+#include "welkin/map/map_cases.h"
+
+namespace welkin {
+namespace {
+
+using namespace cases;
+
+class BordersTest : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, BordersTest, ::testing::ValuesIn(sphere::parameterization_names()), test_name);
+
+template <class Body>
+void for_each_border_texel(const Map& map, int width, const Body& body) {
+  for (int chart = 0; chart < map.charts(); ++chart) {
+    for (int y = -width; y < map.height() + width; ++y) {
+      for (int x = -width; x < map.width() + width; ++x) {
+        const bool inside = x >= 0 && x < map.width() && y >= 0 && y < map.height();
+        if (!inside || !is_place(map, chart, x, y)) body(chart, x, y);
+      }
+    }
+  }
+}
+
+/// Past their edges these go on in texels of another edge, or of another part of the same one.
+TEST(BordersTest, ExactTopologiesRepeatTexelsBitForBit) {
+  for (const char* name : {"latlong", "octahedral", "octahedral-rect", "octahedral-equal-area"}) {
+    // Even around, so that the texel across a pole is one.
+    Map map(sphere::AnyParameterization::make(name), 32, 16, 2);
+    if (name[0] == 'o') map = Map(map.parameterization, 17, 17, 2);
+    // Every texel has a value of its own.
+    float next = 1;
+    for_each_place(map, [&](int chart, int x, int y) {
+      map.level.chart(chart).at(x, y)[0] = next++;
+      map.level.chart(chart).at(x, y)[1] = -next;
+    });
+    fill_borders(map);
+    for_each_border_texel(map, kBorder, [&](int chart, int x, int y) {
+      const double u = (x + 0.5) / map.width(), v = (y + 0.5) / map.height();
+      const auto place = map.parameterization.from_sphere(map.parameterization.to_sphere(chart, u, v));
+      const int i = static_cast<int>(std::floor(place.u * map.width()));
+      const int j = static_cast<int>(std::floor(place.v * map.height()));
+      for (int c = 0; c < 2; ++c) {
+        ASSERT_EQ(map.level.chart(chart).at(x, y)[c], map.level.chart(0).at(i, j)[c])
+            << name << " " << x << "," << y << " is " << i << "," << j;
+      }
+    });
+  }
+}
+
+/// The border of a lat-long and of an octahedron, written out: wraps, and edges that turn round about their
+/// middle.
+TEST(BordersTest, KnownNeighbours) {
+  Map map(sphere::AnyParameterization::make("latlong"), 8, 4, 1);
+  float next = 0;
+  for_each_place(map, [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = next++; });
+  fill_borders(map);
+  const ImageView<const float> latlong = std::as_const(map.level).chart(0);
+  EXPECT_EQ(*latlong.at(-1, 2), *latlong.at(7, 2));
+  EXPECT_EQ(*latlong.at(8, 0), *latlong.at(0, 0));
+  EXPECT_EQ(*latlong.at(1, -1), *latlong.at(5, 0));
+  EXPECT_EQ(*latlong.at(6, 4), *latlong.at(2, 3));
+  Map folded(sphere::AnyParameterization::make("octahedral"), 8, 8, 1);
+  for_each_place(folded, [&](int chart, int x, int y) { *folded.level.chart(chart).at(x, y) = next++; });
+  fill_borders(folded);
+  const ImageView<const float> octahedral = std::as_const(folded.level).chart(0);
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(*octahedral.at(i, -1), *octahedral.at(7 - i, 0));
+    EXPECT_EQ(*octahedral.at(-2, i), *octahedral.at(1, 7 - i));
+  }
+  EXPECT_EQ(*octahedral.at(-1, -1), *octahedral.at(7, 7));
+}
+
+TEST_P(BordersTest, ConstantsReachAsFarAsKernelsDo) {
+  for (const int size : {1, 2, 7, 64}) {
+    const Map map = rendered(
+        GetParam(), size, [](const Vec3d&) { return 0.375; }, 3);
+    for_each_place(map, [&](int chart, int x, int y) {
+      for (int j = -kBorder; j <= kBorder; ++j) {
+        for (int i = -kBorder; i <= kBorder; ++i) {
+          const int column = std::clamp(x + i, -kBorder, map.width() + kBorder - 1);
+          const int row = std::clamp(y + j, -kBorder, map.height() + kBorder - 1);
+          for (int c = 0; c < 3; ++c) {
+            ASSERT_NEAR(map.level.chart(chart).at(column, row)[c], 0.375 * (c + 1), 1e-6)
+                << size << ": " << chart << " " << column << "," << row;
+          }
+        }
+      }
+    });
+  }
+}
+
+/// The largest error in the ring of two texels that bicubic interpolation reads.
+double worst_error(const std::string& name, int size) {
+  const Map map = rendered(name, size, smooth);
+  double worst = 0;
+  for_each_border_texel(map, 2, [&](int chart, int x, int y) {
+    const double u = (x + 0.5) / map.width(), v = (y + 0.5) / map.height();
+    const double expected = smooth(map.parameterization.to_sphere(chart, u, v));
+    worst = std::max(worst, std::fabs(static_cast<double>(*map.level.chart(chart).at(x, y)) - expected));
+  });
+  return worst;
+}
+
+/// Inside a face Catmull–Rom's error is of the third order in the texel's size. Beside a corner three borders
+/// interpolate from one another, and the worst texels are of the second.
+TEST(BordersTest, CubesAreInterpolatedToTheSecondOrderAtLeast) {
+  for (const char* name : {"cube", "eac"}) {
+    double before = worst_error(name, 16);
+    EXPECT_LT(before, 1e-3) << name;
+    for (const int size : {32, 64, 128}) {
+      const double now = worst_error(name, size);
+      EXPECT_LT(now, before / 3.5 + 1e-6) << name << " " << size;
+      before = now;
+    }
+  }
+}
+
+TEST(BordersTest, NothingPastTheRimIsTheMeanOfWhatIsBesideIt) {
+  Map map(sphere::AnyParameterization::make("sky-latlong"), 16, 4, 1);
+  for_each_place(map,
+                 [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = static_cast<float>(x); });
+  fill_borders(map);
+  // Below the horizon: three neighbours above.
+  EXPECT_NEAR(*map.level.chart(0).at(5, 4), 5, 1e-6);
+  EXPECT_NEAR(*map.level.chart(0).at(0, 4), (0 + 1 + 15) / 3.0, 1e-6);
+}
+
+TEST(BordersTest, BordersOfOneMapDependOnNoOldOnes) {
+  for (const char* name : {"cube", "half-cube", "fisheye-equidistant", "paraboloid"}) {
+    Map clean = rendered(name, 40, smooth), stale = rendered(name, 40, smooth);
+    for_each_border_texel(stale, kBorder,
+                          [&](int chart, int x, int y) { *stale.level.chart(chart).at(x, y) = 1e9f; });
+    fill_borders(stale);
+    for_each_border_texel(clean, kBorder, [&](int chart, int x, int y) {
+      const float value = *stale.level.chart(chart).at(x, y);
+      // Deep in a disc's corners nothing is ever read, and nothing is written.
+      if (value == 1e9f) {
+        ASSERT_TRUE(x >= 0 && y >= 0 && x < 40 && y < 40) << name << " " << x << "," << y;
+      } else {
+        ASSERT_EQ(value, *clean.level.chart(chart).at(x, y)) << name << " " << x << "," << y;
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace welkin
