@@ -8,6 +8,7 @@
 #include "welkin/map/borders.h"
 #include "welkin/map/map_file.h"
 #include "welkin/map/render_synth.h"
+#include "welkin/map/resample.h"
 
 namespace welkin::bench {
 namespace {
@@ -24,6 +25,11 @@ Map latlong(int width, int height) {
   return Map(sphere::AnyParameterization::make("latlong"), width, height, 3);
 }
 
+std::uint64_t position(const Map& map, int x, int y) {
+  return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(map.width()) +
+         static_cast<std::uint64_t>(x);
+}
+
 /// texel(x, y, values of its three channels) for every texel, then borders.
 template <class Texel>
 void fill(Map& map, const Texel& texel) {
@@ -33,9 +39,12 @@ void fill(Map& map, const Texel& texel) {
   fill_borders(map);
 }
 
-std::uint64_t position(const Map& map, int x, int y) {
-  return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(map.width()) +
-         static_cast<std::uint64_t>(x);
+/// Brightens and darkens every texel by up to `part`.
+void add_grain(Map& map, float part) {
+  fill(map, [&](int x, int y, float* to) {
+    const float factor = 1 + part * (2 * noise(position(map, x, y)) - 1);
+    for (int c = 0; c < 3; ++c) to[c] *= factor;
+  });
 }
 
 }  // namespace
@@ -68,11 +77,16 @@ HighDynamicRange high_dynamic_range() {
   HighDynamicRange made{
       "built-in studio with noise", false,
       render(synth::make("studio"), sphere::AnyParameterization::make("latlong"), 1024, 512)};
-  fill(made.map, [&](int x, int y, float* to) {
-    const float factor = 0.9f + 0.2f * noise(position(made.map, x, y));
-    for (int c = 0; c < 3; ++c) to[c] *= factor;
-  });
+  add_grain(made.map, 0.1f);
   return made;
+}
+
+Map detailed_picture(int width) {
+  const HighDynamicRange coarse = high_dynamic_range();
+  Map fine = latlong(width, width / 2);
+  resample(coarse.map, fine);
+  add_grain(fine, 0.05f);
+  return fine;
 }
 
 }  // namespace welkin::bench

@@ -24,4 +24,7 @@ struct HighDynamicRange {
 /// The file that WELKIN_BENCH_HDRI names; without it, a built-in studio of 1024×512 under a noise of ±10 %.
 HighDynamicRange high_dynamic_range();
 
+/// The same, enlarged to width × width/2 and with a grain of ±5 % from texel to texel, as a photograph has.
+Map detailed_picture(int width);
+
 }  // namespace welkin::bench

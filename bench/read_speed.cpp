@@ -13,7 +13,6 @@
 #include "harness.h"
 #include "pictures.h"
 #include "welkin/io/image_file.h"
-#include "welkin/map/resample.h"
 
 namespace {
 
@@ -22,17 +21,10 @@ using namespace welkin::bench;
 
 constexpr int kWidth = 4096, kHeight = 2048;
 
-/// A picture that compresses as photographs do: the coarse one enlarged, so that neighbours resemble each
-/// other.
 Image make_picture() {
-  HighDynamicRange coarse = high_dynamic_range();
-  Map fine(coarse.map.parameterization, kWidth, kHeight, coarse.map.channels());
-  resample(coarse.map, fine);
+  const Map map = detailed_picture(kWidth);
   Image picture(kWidth, kHeight, 3);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x)
-      std::memcpy(picture.at(x, y), fine.level.chart(0).at(x, y), 3 * sizeof(float));
-  }
+  copy_pixels(map.level.chart(0), picture.view());
   return picture;
 }
 

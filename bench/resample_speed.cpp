@@ -124,9 +124,10 @@ void run_size(int width, int face, double most_cpu, const Table& table) {
   table.row(
       {"— copying the source's bytes once", cpu_cell(timings[2]), wall_cell(timings[2]), "", "", "", ""});
   const PlaceError error = place_error(source, target, places);
+  const bool judged = most_cpu > 0;
   table.row({"— error of the places, source texels", "rms " + fixed(error.rms, 5),
-             "max " + fixed(error.highest, 5), "float64", "", "0.000 (max < 0.0005)",
-             met(error.highest < 0.0005)});
+             "max " + fixed(error.highest, 5), "", "", judged ? "0.000" : "",
+             judged ? met(error.highest < 0.0005) : ""});
 }
 
 }  // namespace
@@ -137,7 +138,8 @@ int main() {
   paragraph(
       "RGB float. *Gather* is the floor: the same bilinear kernel on the same threads, reading the places of "
       "all texels from "
-      "memory instead of computing them, and writing the same result.");
+      "memory instead of computing them, and writing the same result. Places are compared with the "
+      "same computation in float64.");
   const Table table({"work", "Welkin, CPU s", "wall s", "gather, CPU s", "ratio", "target", "met"});
   run_size(4096, 1024, 0.15, table);
   run_size(8192, 2048, 0, table);

@@ -54,14 +54,20 @@ void Convert::run() const {
 
   LoadedMap source = read.read(in);
   if (!shape) {
-    shape = source.info.shape;
+    // By its name: the turns that the input's faces were given are undone by reading it.
+    shape = parse_map_shape(source.info.shape->text());
     check_output(out, *shape, write);
   }
   if (options.fill.size() > static_cast<std::size_t>(source.map.channels())) {
     throw UsageError(fmt::format("--fill: {} values, but {} has {} channels", options.fill.size(), in, source.map.channels()));
   }
-  const ChartSize chart = size.empty() ? default_chart_size(source.map, shape->parameterization)
-                                       : parse_chart_size("--size", size, shape->parameterization);
+  // A change of format, layout or turn alone keeps the size, odd or not.
+  ChartSize chart = source.info.chart;
+  if (!size.empty()) {
+    chart = parse_chart_size("--size", size, shape->parameterization);
+  } else if (!(for_chart_size(*shape, chart).parameterization == source.map.parameterization)) {
+    chart = default_chart_size(source.map, shape->parameterization);
+  }
   if (sanitize) {
     const std::uint64_t replaced = welkin::sanitize(source.map);
     fmt::print(stderr, "welkin: {}: {} NaN or infinite values replaced\n", in, replaced);

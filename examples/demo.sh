@@ -10,10 +10,11 @@ welkin=$(cd -- "$(dirname -- "$1")" && pwd -P)/$(basename -- "$1")
 [[ -x $welkin ]] || { printf 'demo: %s is not a program\n' "$1" >&2; exit 1; }
 mkdir -p -- "$2"
 cd -- "$2"
+: >demo.log
 
 worlds=(axes studio)
 world_size=512
-picture_size=256
+picture_size=192
 page=index.html
 
 escaped() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g' -e 's/"/\&quot;/g' <<<"$1"; }
@@ -22,7 +23,8 @@ escaped() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g' -e 's/"/\&qu
 figure() {
   local picture=$1 command
   shift
-  "$welkin" "$@"
+  # Pictures of bright lights are clipped, and said to be; that is not news here.
+  "$welkin" "$@" >/dev/null 2>>demo.log || { cat demo.log >&2; return 1; }
   command=$(escaped "welkin $*")
   printf '<figure><img alt="%s" src="data:image/png;base64,' "$(escaped "$picture")"
   base64 <"$picture" | tr -d '\n'
@@ -82,17 +84,17 @@ mapfile -t parameterizations < <("$welkin" list parameterizations)
 </style>
 <h1>One world, every parameterization</h1>
 <p>A map is a function from direction to radiance; a parameterization says where a direction lies in a picture. Below are the
-built-in worlds in each one that Welkin knows, and how densely its texels cover the sphere. The command under
-a picture made it.</p>
+built-in worlds in each one that Welkin knows, and how evenly its texels
+cover the sphere. The command under a picture made it.</p>
 HTML
   printf '<p><code>%s</code></p>\n' "$(escaped "$("$welkin" --version)")"
 
   printf '<h2>Worlds</h2>\n<div class="row">\n'
   for world in "${worlds[@]}"; do
-    figure "$world.png" synth "$world" "$world.png" --size "$world_size"
+    figure "$world.png" synth "$world" "$world.png" --size "$world_size" --type uint8
   done
   printf '</div>\n<h2>Texel density</h2>\n'
-  printf '<p>Least and greatest density over the sphere, and their ratio: 1 is even. <code>welkin plot density --json</code></p>\n'
+  printf '<p>The solid angle of a texel over the average: least, greatest, and their ratio. 1 is even. <code>welkin plot density --json</code></p>\n'
   printf '<table><tr><th>parameterization</th><th>min</th><th>max</th><th>ratio</th></tr>\n'
   for name in "${parameterizations[@]}"; do
     read -r least greatest ratio < <(density_of "$name") || true
@@ -106,7 +108,7 @@ HTML
     file=${name//[^A-Za-z0-9-]/-}
     printf '<h2 id="%s">%s</h2>\n<div class="row">\n' "$(escaped "$name")" "$(escaped "$name")"
     for world in "${worlds[@]}"; do
-      figure "$world-$file.png" convert "$world.exr" "$world-$file.png" --to "$name" --size "$picture_size"
+      figure "$world-$file.png" convert "$world.exr" "$world-$file.png" --to "$name" --size "$picture_size" --type uint8
     done
     figure "density-$file.png" plot density "density-$file.png" --of "$name"
     printf '</div>\n'

@@ -41,7 +41,8 @@ TEST(BordersTest, ExactTopologiesRepeatTexelsBitForBit) {
       const int i = static_cast<int>(std::floor(place.u * map.width()));
       const int j = static_cast<int>(std::floor(place.v * map.height()));
       for (int c = 0; c < 2; ++c) {
-        ASSERT_EQ(map.level.chart(chart).at(x, y)[c], map.level.chart(0).at(i, j)[c])
+        ASSERT_EQ(map.level.chart(chart).at(x, y)[c],
+                  map.level.chart(static_cast<int>(place.chart)).at(i, j)[c])
             << name << " " << x << "," << y << " is " << i << "," << j;
       }
     });

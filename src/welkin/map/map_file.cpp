@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kShapeKey = "welkin.parameterization";
 constexpr const char* kFacesKey = "welkin.faces";
+constexpr const char* kChartKey = "welkin.chart";
 constexpr const char* kOrientationKey = "welkin.orientation";
 
 /// The file of one chart: `%s` replaced by the chart's name.
@@ -64,6 +65,8 @@ bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
   return std::fabs(wide - chart.width) <= std::max(1.0, 0.01 * wide) || std::fabs(high - chart.height) < 1;
 }
 
+std::string text_of(ChartSize size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+
 /// What a picture's size suggests.
 std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& file, bool pattern) {
   const int width = file.parts[0].width, height = file.parts[0].height;
@@ -92,7 +95,7 @@ std::string attribute(const io::FileInfo& file, const char* key) {
 
 /// Whether another program turned our map into the one that its `envmap` declares, and copied our declaration along.
 bool is_copied(const std::string& declared, const io::FileInfo& file) {
-  return file.envmap && !declared.starts_with("openexr-");
+  return file.envmap && !declared.starts_with("openexr-" + *file.envmap);
 }
 
 /// The channels to read: indices into the part's list.
@@ -195,7 +198,11 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   const io::PartInfo& part = file.parts[kind == LayoutKind::layers ? 0 : options.part];
   Layout single;  // one chart per picture
   const MapShape per_picture{info.shape->parameterization, kind == LayoutKind::picture ? info.shape->layout : single};
-  if (!size_fits(per_picture, part.width, part.height, info.chart)) {
+  // Texels that aren't square were asked for, where the file gives the very size of its charts.
+  const std::optional<ChartSize> divided = chart_size_in(per_picture.layout, part.width, part.height);
+  const bool as_written = !options.shape && divided && text_of(*divided) == attribute(file, kChartKey);
+  if (as_written) info.chart = *divided;
+  if (!as_written && !size_fits(per_picture, part.width, part.height, info.chart)) {
     char aspect[32];
     std::snprintf(aspect, sizeof aspect, "%.4g",
                   info.shape->parameterization.aspect() * per_picture.layout.columns / per_picture.layout.rows);
@@ -293,6 +300,7 @@ io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& la
   }
   io::WriteOptions image = options.image;
   image.attributes[kShapeKey] = MapShape{p, layout}.text();
+  image.attributes[kChartKey] = text_of(ChartSize{map.width(), map.height()});
   if (!options.faces.empty()) image.attributes[kFacesKey] = options.faces;
   // OpenEXR's attribute also says how the world lies: as the native one.
   if (!(map.orientation == Matrix3{})) {

@@ -365,6 +365,8 @@ class Resampler {
     batch.locate(source_, target_, to_source_, turned_, chart, count);
     const auto& t = target_.parameterization;
     t.kernels().density(t.self(), chart, batch.u, batch.v, batch.weight, count);
+    // At a pole the density rounds to either side of zero.
+    for (std::size_t i = 0; i < count; ++i) batch.weight[i] = std::max(batch.weight[i], 0.0f);
     if (target_is_full_) return;
     t.kernels().valid(t.self(), chart, batch.u, batch.v, batch.valid, count);
     for (std::size_t i = 0; i < count; ++i) batch.weight[i] = batch.valid[i] > 0 ? batch.weight[i] : 0.0f;

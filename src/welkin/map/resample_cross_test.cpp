@@ -57,6 +57,8 @@ TEST_P(ResampleCrossTest, AConstantStaysConstantAndTheRestIsFilled) {
         ResampleOptions options = with(filter);
         options.fill = {-4};
         options.allow_ringing = source_size == 24;
+        // Lanczos: 64 float weights, and no range to hold them to.
+        const double rounding = options.allow_ringing ? 1e-5 : 2.5e-6;
         if (source_size > 5) options.rotation = rotation_from_yaw_pitch_roll(20, 35, 10);
         resample(source, target, options);
         for (int chart = 0; chart < target.charts(); ++chart) {
@@ -79,9 +81,9 @@ TEST_P(ResampleCrossTest, AConstantStaysConstantAndTheRestIsFilled) {
                                        ? std::min(kPi, 0.05 + 1.2 * half_width(target, chart, x, y))
                                        : 1e-5;
               const Coverage covered = coverage_around(source.parameterization, d, reach);
-              ASSERT_GE(value, covered == Coverage::full ? 2.5 - 2.5e-6 : -4.00001)
+              ASSERT_GE(value, covered == Coverage::full ? 2.5 - rounding : -4.00001)
                   << std::setprecision(9) << value << " " << where;
-              ASSERT_LE(value, covered == Coverage::none ? -3.99999 : 2.5 + 2.5e-6)
+              ASSERT_LE(value, covered == Coverage::none ? -3.99999 : 2.5 + rounding)
                   << std::setprecision(9) << value << " " << where;
             }
           }
@@ -141,15 +143,24 @@ TEST_P(ResampleCrossTest, ASmoothFunctionIsNowhereDisplacedByHalfATexel) {
   }
 }
 
+/// Parameterizations that know what lies past their edges, and whose texels there have a shape: not those
+/// with rims, nor equal-area, whose texels at the poles are slivers.
+std::vector<std::string> names_without_rims() {
+  std::vector<std::string> names;
+  for (const std::string& name : sphere::parameterization_names()) {
+    const auto p = sphere::AnyParameterization::make(name);
+    if (p.whole_world() && p.valid(0, 1e-6, 1e-6) && name != "equal-area") names.push_back(name);
+  }
+  return names;
+}
+
+class ResampleEdgeTest : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, ResampleEdgeTest, ::testing::ValuesIn(names_without_rims()), test_name);
+
 /// Where charts meet without a rim, an edge must not be seen: errors beside it are at most twice those inside
 /// and two hundredths of a texel's slope more (creases meet at the corners of octahedra and of HEALPix).
-TEST_P(ResampleCrossTest, ErrorsAtAnEdgeAreLikeThoseInside) {
-  for (const char* rim :
-       {"sphere", "mirror-ball", "angular", "paraboloid", "octahedral-perspective", "equal-area"}) {
-    if (GetParam() == rim) GTEST_SKIP() << "its edge is a rim, or a pole where texels have no shape";
-  }
+TEST_P(ResampleEdgeTest, ErrorsAtAnEdgeAreLikeThoseInside) {
   const Map source = rendered(GetParam(), 32, smooth);
-  if (!source.parameterization.whole_world()) GTEST_SKIP() << "nothing is known past its edge";
   for (const Filter filter : kFilters) {
     double inside = 0, edge = 0;
     for (const char* name : {"cube", "latlong"}) {

@@ -19,8 +19,8 @@ TEST(Sample, GivesTexelsAtTheirCentres) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> value(0, 2);
   for (const std::string& name : sphere::parameterization_names()) {
-    const auto p = AnyParameterization::make(name);
-    Map map(p, 16, 16, 3);
+    Map map(AnyParameterization::make(name), 16, 16, 3);
+    const auto& p = map.parameterization;
     for (int chart = 0; chart < map.charts(); ++chart) {
       for (int y = 0; y < 16; ++y) {
         for (int i = 0; i < 48; ++i) map.level.chart(chart).row(y)[i] = value(random);
