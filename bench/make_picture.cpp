@@ -1,7 +1,8 @@
 // Writes the picture that other programs are compared on.
 //
-// make_picture OUT WIDTH     OUT.tif: clipped to 0…1, 16 bits, linear, uncompressed. OUT.exr: half, ZIP.
+// make_picture OUT WIDTH     OUT.tif: clipped to 0…¾, 16 bits, linear, uncompressed. OUT.exr: half, ZIP.
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -16,10 +17,15 @@ int main(int argc, char** argv) try {
   using namespace welkin;
   if (argc != 3) throw Error("make_picture OUT WIDTH");
   const std::filesystem::path path = argv[1];
-  const Map map = bench::detailed_picture(std::stoi(argv[2]));
+  Map map = bench::detailed_picture(std::stoi(argv[2]));
+  const bool is_tiff = path.extension() == ".tif";
+  for (int y = 0; is_tiff && y < map.height(); ++y) {
+    float* row = map.level.chart(0).row(y);
+    for (int i = 0; i < 3 * map.width(); ++i) row[i] = std::clamp(row[i], 0.0f, 0.75f);
+  }
   const io::WritePart part{"", map.level.chart(0), {"R", "G", "B"}};
   io::WriteOptions options;
-  if (path.extension() == ".tif") {
+  if (is_tiff) {
     options.type = io::PixelType::uint16;
     options.colour = io::Colour::linear;
     options.compression = "none";

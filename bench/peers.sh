@@ -14,6 +14,9 @@ cd -- "$work"
 convert() { "$welkin" convert -j "$threads" "$@"; }
 cost() { "$build/bench/process_cost" 5 "$@"; }
 
+# The upstream version of a Debian package.
+version() { dpkg-query -W -f='${Version}' "$1" 2>/dev/null | sed 's/^[0-9]*://; s/[+-].*//'; }
+
 # psnr REFERENCE MAP: dB, peak 1; a dash without a reference.
 psnr() {
   if [[ $1 == - ]]; then echo -; return; fi
@@ -38,10 +41,10 @@ cat <<TEXT
 
 ## Other programs: 4096×2048 to cube 6×$face, from file to file
 
-Whole processes, $threads threads where the program has them, median of 5 runs; the input is in the page cache, the values lie in 0…1. Both programs
-read the same file and write the same format. PSNR (peak 1, weighted by solid angle) is against the same resampling in float64: bilinear
-interpolation, or for area filters the mean over 16×16 points of every texel. A program whose filter has another definition shows that here, not
-an error. *Faster* is the peer's time over Welkin's.
+Whole processes, $threads threads where the program has them, median of 5 runs; the input is in the page cache. Both programs read the same file
+and write the same format. PSNR (peak 1, weighted by solid angle) is against the same resampling in float64: bilinear interpolation, or for
+area filters the mean over 32×32 points of every texel. A program whose filter is defined otherwise shows that here, not an error. *Faster* is
+the peer's time over Welkin's. Values end at ¾, because v360 wraps around when 16-bit values come close to their largest.
 
 | job | peer, CPU s | wall s | Welkin, CPU s | wall s | faster, CPU | wall | peer, dB | Welkin, dB |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -62,7 +65,7 @@ if command -v ffmpeg >/dev/null; then
       --filter "$kernel" --type uint16 --compression none)
     reference=bilinear.exr
     if [[ $kernel == lanczos ]]; then reference=-; fi
-    peer_row "$(ffmpeg -version | sed -n '1s/^ffmpeg version \([0-9.]*\).*/ffmpeg \1/p'), v360, $kernel, 16-bit TIFF" \
+    peer_row "ffmpeg $(version ffmpeg), v360, $kernel, 16-bit TIFF" \
       peer.tif cube:hstrip ours.tif cube:hstrip $reference
   done
 else
@@ -80,26 +83,26 @@ if command -v nona >/dev/null; then
   peer=(sh -c 'for face in px nx py ny pz nz; do nona -o nona_$face $face.pto >/dev/null || exit 1; done')
   ours=("$welkin" convert -j "$threads" source.tif 'ours_%s.tif' --colour linear --to-colour linear --to cube:faces --size $face
     --filter bilinear --type uint16 --compression none)
-  peer_row 'nona 2022.0, six runs, bilinear, 16-bit TIFF' 'nona_%s0000.tif' cube:faces 'ours_%s.tif' cube:faces bilinear.exr
+  peer_row "nona $(version hugin-tools), six runs, bilinear, 16-bit TIFF" 'nona_%s0000.tif' cube:faces 'ours_%s.tif' cube:faces bilinear.exr
 else
   missing+=('nona (hugin-tools)')
 fi
 
 if command -v exrenvmap >/dev/null; then
   faces=(openexr-cube:layers)
+  openexr=$(version openexr)
   convert source.exr half.exr --from openexr-latlong --to openexr-latlong --type half --compression none
   "$build/bench/reference" half.exr bilinear.exr $face bilinear openexr
-  "$build/bench/reference" half.exr area.exr $face 16 openexr
-  ours=("$welkin" convert -j "$threads" half.exr ours.exr --from openexr-latlong --to openexr-cube --size $face --filter bilinear
-    --type half --compression none)
+  "$build/bench/reference" half.exr area.exr 256 32 openexr
+  ours=("$welkin" convert -j "$threads" half.exr ours_openexr.exr --from openexr-latlong --to openexr-cube --type half --compression none)
+  files=(peer_openexr.exr openexr-cube ours_openexr.exr openexr-cube)
+  plain=("${ours[@]}")
   peer=(exrenvmap -li -c -f 0 1 -w $face half.exr peer_openexr.exr)
-  ours[5]=ours_openexr.exr
-  peer_row 'exrenvmap, one sample per texel, half EXR' peer_openexr.exr openexr-cube ours_openexr.exr openexr-cube bilinear.exr
-  peer=(exrenvmap -li -c -w $face half.exr peer_openexr.exr)
-  ours=("$welkin" convert -j "$threads" half.exr ours_openexr.exr --from openexr-latlong --to openexr-cube --size $face --type half
-    --compression none)
-  peer_row 'exrenvmap, 5×5 samples (its default) against `auto`, half EXR' peer_openexr.exr openexr-cube ours_openexr.exr \
-    openexr-cube area.exr
+  ours=("${plain[@]}" --size $face --filter bilinear)
+  peer_row "exrenvmap $openexr, one sample per texel, half EXR" "${files[@]}" bilinear.exr
+  peer=(exrenvmap -li -c -w 256 half.exr peer_openexr.exr)
+  ours=("${plain[@]}" --size 256)
+  peer_row "exrenvmap $openexr, 5×5 samples (its default), and \`auto\`, half EXR, to 6×256" "${files[@]}" area.exr
 else
   missing+=('exrenvmap (openexr)')
 fi

@@ -70,7 +70,7 @@ void Convert::run() const {
   }
   if (sanitize) {
     const std::uint64_t replaced = welkin::sanitize(source.map);
-    fmt::print(stderr, "welkin: {}: {} NaN or infinite values replaced\n", in, replaced);
+    fmt::print(stderr, "welkin: {}: {} texels with NaN or infinite values mended\n", in, replaced);
     fill_borders(source.map);
   }
   shape = for_chart_size(*shape, chart);

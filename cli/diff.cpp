@@ -48,8 +48,10 @@ void Diff::run() const {
   options.filter = parse_option("--filter", [&] { return filter_from_name(filter); });
   options.peak = peak;
   ReadFlags read_b = read;
-  if (!from_b.empty()) read_b.from = from_b;
-  parse_option("--from-b", [&] { return read_b.parse(); });
+  if (!from_b.empty()) {
+    parse_option("--from-b", [&] { return parse_map_shape(from_b); });
+    read_b.from = from_b;
+  }
   if (!heat.empty()) check_output(heat, parse_map_shape("latlong"));
   const LoadedMap reference = read.read(a), other = read_b.read(b);
   options.monitor = progress_monitor("diff");

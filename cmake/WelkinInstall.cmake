@@ -1,7 +1,8 @@
 # Installs the library, its public headers, and what find_package(welkin) and pkg-config need.
 #
 # Public headers: every header of the rooms, save those that only their own room or its tests include:
-# kernels that need SIMD libraries (*_impl.h), cases for tests, the inside of the file formats and of the built-in maps.
+# kernels that need SIMD libraries (*_impl.h), what several source files share (*_job.h), cases for tests, the inside of the file
+# formats and of the built-in maps.
 # tests/install_test.sh compiles all that are installed.
 include(CMakePackageConfigHelpers)
 
@@ -15,6 +16,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/welkin/ DESTINATION ${include_destin
         FILES_MATCHING PATTERN "*.h"
         PATTERN "*_impl.h" EXCLUDE
         PATTERN "*_cases.h" EXCLUDE
+        PATTERN "*_job.h" EXCLUDE
         PATTERN "*test*" EXCLUDE
         REGEX "/src/welkin/(io|synth)$" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/io/image_file.h DESTINATION ${include_destination}/io)

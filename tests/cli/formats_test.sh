@@ -105,7 +105,7 @@ must synth axes square.exr --to octahedral --size 16
 sed 's/octahedral/octahedrax/' square.exr >damaged.exr
 refuses 1 "damaged.exr: unknown parameterization 'octahedrax'" info damaged.exr
 sed 's/octahedral/mercator,f/' square.exr >damaged.exr
-refuses 1 "damaged.exr: mercator: " info damaged.exr
+refuses 1 "damaged.exr: unknown parameter of mercator" info damaged.exr
 sed 's/octahedral/sky-latlon/' square.exr >damaged.exr
 refuses 1 "damaged.exr: unknown parameterization 'sky-latlon'; did you mean 'sky-latlong'" info damaged.exr
 must info damaged.exr --from octahedral
@@ -116,18 +116,18 @@ if command -v exrenvmap >/dev/null && command -v exrheader >/dev/null; then
   checks=$((checks + 1))
   exrheader panorama.exr | grep -q 'envmap.*latitude-longitude' || fail "no envmap attribute: $(exrheader panorama.exr)"
   checks=$((checks + 1))
-  exrenvmap -c -w 128 panorama.exr cube.exr || fail "exrenvmap cannot read a lat-long"
-  matches '"parameterization": "openexr-cube:openexr,width=128,height=128"' info cube.exr --header --json
+  exrenvmap -c -w 64 panorama.exr cube.exr || fail "exrenvmap cannot read a lat-long"
+  matches '"parameterization": "openexr-cube:openexr,width=64,height=64"' info cube.exr --header --json
   for axis in "${axes[@]}"; do
-    near "exrenvmap's cube along $axis" "$(sample_along cube.exr "$axis")" "${card_colour[$axis]}" 0.03
+    near "exrenvmap's cube along $axis" "$(sample_along cube.exr "$axis")" "${card_colour[$axis]}" 0.06
   done
-  must synth axes drawn.exr --to openexr-cube --size 128 --type half --samples 3
-  same drawn.exr cube.exr 0.2
+  must synth axes drawn.exr --to openexr-cube --size 64 --type half --samples 3
+  same drawn.exr cube.exr 0.25
   checks=$((checks + 1))
-  exrenvmap -l -w 256 drawn.exr panorama2.exr || fail "exrenvmap cannot read a cube"
-  matches '"parameterization": "openexr-latlong,width=256,height=128"' info panorama2.exr --header --json
+  exrenvmap -l -w 128 drawn.exr panorama2.exr || fail "exrenvmap cannot read a cube"
+  matches '"parameterization": "openexr-latlong,width=128,height=64"' info panorama2.exr --header --json
   for axis in "${axes[@]}"; do
-    near "exrenvmap's lat-long along $axis" "$(sample_along panorama2.exr "$axis")" "${card_colour[$axis]}" 0.03
+    near "exrenvmap's lat-long along $axis" "$(sample_along panorama2.exr "$axis")" "${card_colour[$axis]}" 0.06
   done
   if command -v exrmaketiled >/dev/null; then
     checks=$((checks + 1))
@@ -140,15 +140,12 @@ fi
 
 # A reader that shares nothing with ours.
 if command -v oiiotool >/dev/null; then
-  for extension in exr hdr png tif; do
-    must convert map.exr "copy.$extension"
+  for pair in exr:tif hdr:exr png:tif tif:exr; do
+    from=copy.${pair%:*} to=other.${pair#*:}
+    must convert map.exr "$from"
     checks=$((checks + 1))
-    oiiotool "copy.$extension" -o other.exr || fail "oiiotool cannot read copy.$extension"
-    case $extension in
-      png) must convert "copy.$extension" linear.exr && must convert other.exr again.exr --colour srgb --from latlong ;;
-      *) must convert "copy.$extension" linear.exr && must convert other.exr again.exr --from latlong ;;
-    esac
-    same linear.exr again.exr 1e-6
+    oiiotool "$from" -o "$to" >/dev/null || fail "oiiotool cannot read $from"
+    same "$from" "$to" 1e-6 --from latlong
   done
 else
   skip "oiiotool is not installed"

@@ -121,8 +121,8 @@ Fill first_value(const AnyParameterization& p, const Level& level, const Texel& 
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
   const double fx = x - ix, fy = y - iy;
   double total = 0;
-  double sum[kBorder * 16] = {};
-  const int channels = std::min<int>(level.channels(), std::size(sum));
+  double sum[kMostChannels] = {};
+  const int channels = level.channels();
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 2; ++i) {
       const double weight = (i ? fx : 1 - fx) * (j ? fy : 1 - fy) + 1e-9;
@@ -137,8 +137,8 @@ Fill first_value(const AnyParameterization& p, const Level& level, const Texel& 
   return Fill::interpolated;
 }
 
-/// Second pass: the whole Catmull–Rom kernel, borders included, held to the range of the four nearest texels.
-void second_value(const AnyParameterization& p, const Level& level, const Texel& t, float* out) {
+/// Later passes: the whole Catmull–Rom kernel, borders included, held to the range of the four nearest texels.
+void later_value(const AnyParameterization& p, const Level& level, const Texel& t, float* out) {
   const auto place = p.from_sphere(direction_of(p, level, t));
   const int chart = static_cast<int>(place.chart);
   const double x = clamp(place.u * level.width() - 0.5, -1.0, static_cast<double>(level.width()));
@@ -252,10 +252,13 @@ void fill_borders(const AnyParameterization& p, Level& level) {
   }
   spread(p, level, whole, known, std::move(missing));
   if (!any_interpolated) return;
-  for_all([&](std::size_t i) {
-    if (fills[i] == Fill::interpolated) second_value(p, level, texels[i], values.data() + i * channels);
-  });
-  scatter();
+  // The first of these reads the bilinear values of the first pass beside an edge, the second what it has put there.
+  for (int pass = 0; pass < 2; ++pass) {
+    for_all([&](std::size_t i) {
+      if (fills[i] == Fill::interpolated) later_value(p, level, texels[i], values.data() + i * channels);
+    });
+    scatter();
+  }
 }
 
 }  // namespace welkin

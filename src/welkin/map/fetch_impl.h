@@ -149,7 +149,8 @@ struct FetchOf {
     const Value half(0.5f);
     const Value margin = half * (highest - lowest);
     const Value floor = xsimd::max(lowest - margin, xsimd::min(lowest, half * lowest));
-    return xsimd::min(xsimd::max(value, floor), highest + margin);
+    const Value held = xsimd::min(xsimd::max(value, floor), highest + margin);
+    return xsimd::select(value == value, held, value);  // NaN stays NaN
   }
 
   /// Separable kernel over kTaps × kTaps texels; with `kHold`, held near the range of the inner 4×4 texels.

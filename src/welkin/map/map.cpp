@@ -17,6 +17,9 @@ Level::Level(int charts, int width, int height, int channels)
                 std::to_string(height) + " texels cannot be made (a side is 1 to " +
                 std::to_string(kLargestSide / charts) + ")");
   }
+  if (channels < 1 || channels > kMostChannels) {
+    throw Error("a map has 1 to " + std::to_string(kMostChannels) + " channels, not " + std::to_string(channels));
+  }
   storage_ = Image(width + 2 * kBorder, (height + 2 * kBorder) * charts, channels);
 }
 

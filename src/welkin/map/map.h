@@ -12,6 +12,8 @@ namespace welkin {
 /// Texels of border around every chart at every level: enough for the widest kernel here (Lanczos, 3 on each side).
 inline constexpr int kBorder = 4;
 
+inline constexpr int kMostChannels = 64;
+
 /// One resolution of a map: its charts, all of one size, each with kBorder texels of border on every side.
 /// A chart's view starts at its first texel; texels from −kBorder to width+kBorder−1 can be read.
 class Level {
