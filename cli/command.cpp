@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "terminal.h"
 #include "welkin/io/output_file.h"
 #include "welkin/map/convention.h"
 
@@ -111,6 +112,8 @@ void ReadFlags::add(CLI::App& command) {
   command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb")->capture_default_str();
   command.add_option("--channels", channels, "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
   command.add_option("--part", part, "Which picture of a file with several (from 0)")->check(CLI::Range(0, 1 << 30));
+  command.add_option("--from-border", border, "Texels of safety border around every chart of the input, where it doesn't declare them")
+      ->check(CLI::Range(0, 65536));
 }
 
 ReadMapOptions ReadFlags::parse() const {
@@ -157,11 +160,14 @@ void WriteFlags::add(CLI::App& command) {
   command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")->capture_default_str();
   command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");
   command.add_option("--quality", quality, "Quality of lossy formats")->check(CLI::Range(1, 100))->capture_default_str();
+  command.add_option("--border", border, "Texels of safety border to write around every chart, for renderers that know no chart edges")
+      ->check(CLI::Range(0, 65536));
 }
 
 WriteMapOptions WriteFlags::parse() const {
   WriteMapOptions options;
   options.faces = faces;
+  options.border = border;
   options.image.colour = parse_colour("--to-colour", colour);
   options.image.compression = compression;
   options.image.quality = quality;
@@ -210,9 +216,15 @@ void check_output(const std::string& path, const MapShape& shape, const WriteFla
   }
 }
 
+void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& flags) {
+  parse_option("--size", [&] {
+    check_turns(flags.faces.empty() ? shape.layout : with_faces(shape.layout, shape.parameterization, flags.faces), size);
+  });
+}
+
 void report_losses(const std::string& path, const io::WriteReport& report) {
   const auto warn = [&](std::uint64_t count, std::string_view what) {
-    if (count > 0) fmt::print(stderr, "welkin: {}: {} values {}\n", path, count, what);
+    if (count > 0) tell(fmt::format("welkin: {}: {} values {}\n", path, count, what));
   };
   warn(report.above, "were above what the file can hold, and clipped");
   warn(report.below, "were negative, and are 0 in the file");

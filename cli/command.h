@@ -62,6 +62,7 @@ void end_progress();
 
 /// Options of every command that reads a map, with a prefix for commands that read two (`--from`, `--from-faces`…).
 struct ReadFlags {
+  int border = 0;
   std::string from, faces, convention, colour = "auto", channels;
   int part = 0;
 
@@ -76,6 +77,7 @@ struct ReadFlags {
 struct WriteFlags {
   std::string faces, type, colour = "auto", compression;
   int quality = 95;
+  int border = 0;
 
   void add(CLI::App& command);
   /// Throws UsageError.
@@ -85,6 +87,8 @@ struct WriteFlags {
 /// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't fit
 /// (extension, `%s`, faces), Error for a folder that doesn't take the file.
 void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags = {});
+/// The same of the size: UsageError where the layout turns charts that aren't square.
+void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& flags);
 
 /// Warns on stderr of values that a format could not hold.
 void report_losses(const std::string& path, const io::WriteReport& report);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "command.h"
+#include "terminal.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/convention.h"
 #include "welkin/map/resample.h"
@@ -70,9 +71,10 @@ void Convert::run() const {
   }
   if (sanitize) {
     const std::uint64_t replaced = welkin::sanitize(source.map);
-    fmt::print(stderr, "welkin: {}: {} texels with NaN or infinite values mended\n", in, replaced);
+    tell(fmt::format("welkin: {}: {} texels with NaN or infinite values mended\n", in, replaced));
     fill_borders(source.map);
   }
+  check_output_size(chart, *shape, write);
   shape = for_chart_size(*shape, chart);
   Map target(shape->parameterization, chart.width, chart.height, source.map.channels());
   target.channel_names = source.map.channel_names;
@@ -82,6 +84,7 @@ void Convert::run() const {
   end_progress();
   const double factor = scale * std::exp2(exposure);
   if (factor != 1) scale_colour(target, static_cast<float>(factor));
+  if (write.border > 0) fill_borders(target);
   report_losses(out, write_map(out, target, shape->layout, write_options));
 }
 

@@ -70,7 +70,7 @@ void Diff::run() const {
     report["texels"] = result.texels;
     report["solid_angle"] = result.solid_angle;
     report["skipped"] = result.skipped;
-    fmt::print("{}\n", report.dump(2));
+    fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
   } else {
     for (const ErrorMeasures& channel : result.channels) print(channel);
     print(result.all);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "welkin/map/safety_border.h"
 #include "welkin/map/statistics.h"
 
 namespace welkin::cli {
@@ -19,6 +20,10 @@ struct Info {
 };
 
 ordered_json direction(const Vec3d& d) { return {d.x, d.y, d.z}; }
+
+int level_served(const MapFileInfo& info) {
+  return std::min(coarsest_level_served(info.border, info.chart.width), coarsest_level_served(info.border, info.chart.height));
+}
 
 ordered_json header_of(const std::string& path, const MapFileInfo& info) {
   ordered_json parts = ordered_json::array();
@@ -40,6 +45,9 @@ ordered_json header_of(const std::string& path, const MapFileInfo& info) {
   report["parameterization"] = info.shape ? ordered_json(info.shape->text()) : ordered_json(nullptr);
   report["reason"] = info.reason;
   if (info.shape) report["chart"] = {{"width", info.chart.width}, {"height", info.chart.height}};
+  if (info.border > 0) {
+    report["border"] = {{"texels", info.border}, {"coarsest_level_served", level_served(info)}};
+  }
   if (!(info.orientation == Matrix3{})) report["orientation"] = info.orientation.rows;
   return report;
 }
@@ -98,6 +106,9 @@ void print_header(const std::string& path, const MapFileInfo& info) {
   if (info.shape) {
     fmt::print("  parameterization  {} ({}), charts {}×{}×{}\n", info.shape->text(), info.reason,
                info.shape->parameterization.charts(), info.chart.width, info.chart.height);
+    if (info.border > 0) {
+      fmt::print("  safety border     {} texels: serves mip levels 0 to {}\n", info.border, level_served(info));
+    }
   } else {
     fmt::print("  parameterization  unknown: {}; name it with --from\n", info.reason);
   }

@@ -100,22 +100,25 @@ int run(int argc, char** argv) {
   }
 }
 
+constexpr const char* kNoOutput = "standard output: cannot be written";
+
 /// Ends what was being shown before it says what went wrong.
 int report(int status, const char* what) {
   cli::end_progress();
   std::fflush(stdout);
-  fmt::print(stderr, "welkin: {}\n", what);
+  cli::tell(fmt::format("welkin: {}\n", what));
   return status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  cli::hold_standard_streams();
   cli::remove_outputs_on_signals();
   try {
     const int status = run(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      return report(1, "standard output: cannot be written");
+      return report(1, kNoOutput);
     }
     return status;
   } catch (const cli::UsageError& error) {
@@ -123,6 +126,6 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return report(1, "out of memory");
   } catch (const std::exception& error) {
-    return report(1, error.what());
+    return report(1, std::ferror(stdout) != 0 ? kNoOutput : error.what());
   }
 }

@@ -29,12 +29,14 @@ void PlotDensity::run() const {
   }
   if (!out.empty()) check_output(out, parse_map_shape("latlong"));
   ordered_json all = ordered_json::array();
-  if (!json) fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "solid angle / average", "min", "max", "ratio", "limit ratio");
   for (const auto& p : list) {
     const DensityReport report = density_of(p, size);
     if (!out.empty()) {
       const io::WritePart part{"", static_cast<const Image&>(report.picture).view(), {"R", "G", "B"}};
       io::write(out, {&part, 1});
+    }
+    if (!json && all.empty()) {
+      fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "solid angle / average", "min", "max", "ratio", "limit ratio");
     }
     all.push_back({{"name", p.spec()},
                    {"charts", p.charts()},

@@ -28,6 +28,7 @@ void Synth::run() const {
   check_output(out, shape, write);
   const std::string text = !size.empty() ? size : shape.parameterization.charts() == 1 ? "1024" : "256";
   const ChartSize chart = parse_chart_size("--size", text, shape.parameterization);
+  check_output_size(chart, shape, write);
   shape = for_chart_size(shape, chart);
   RenderOptions render_options;
   render_options.samples = samples;

@@ -1,6 +1,7 @@
 // The command line's POSIX-only code: signals, and whether stderr is a terminal.
 #include "terminal.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
 #include <unistd.h>
@@ -38,8 +39,8 @@ class Bar {
     last_ = now;
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const int filled = static_cast<int>(fraction * 30);
-    fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3.0f} %", what_, "", filled, "", 30 - filled, 100 * fraction);
-    if (fraction > 0.02) fmt::print(stderr, ", {:.0f} s left ", seconds * (1 - fraction) / fraction);
+    tell(fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %", what_, "", filled, "", 30 - filled, 100 * fraction));
+    if (fraction > 0.02) tell(fmt::format(", {:.0f} s left ", seconds * (1 - fraction) / fraction));
     std::fflush(stderr);
     bar_shown = true;
   }
@@ -52,9 +53,19 @@ class Bar {
 
 }  // namespace
 
+void tell(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
 void set_progress_mode(ProgressMode mode) { progress_mode = mode; }
 
+void hold_standard_streams() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+    // The lowest free number is taken: the closed one's, as those below are open by now.
+    if (fcntl(descriptor, F_GETFD) < 0) open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
 void remove_outputs_on_signals() {
+  signal(SIGXFSZ, SIG_IGN);
   struct sigaction action {};
   action.sa_handler = end_process;
   for (const int each : {SIGINT, SIGTERM, SIGHUP}) {
@@ -74,7 +85,7 @@ Monitor progress_monitor(std::string what) {
 }
 
 void end_progress() {
-  if (bar_shown.exchange(false)) fmt::print(stderr, "\n");
+  if (bar_shown.exchange(false)) tell("\n");
 }
 
 }  // namespace welkin::cli

@@ -246,7 +246,18 @@ std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, 
   return ChartSize{picture_width / layout.columns, picture_height / layout.rows};
 }
 
+void check_turns(const Layout& layout, ChartSize size) {
+  if (size.width == size.height) return;
+  for (const LayoutCell& cell : layout.cells) {
+    if ((cell.quarter_turns & 1) == 0) continue;
+    throw Error("faces of " + std::to_string(size.width) + "×" + std::to_string(size.height) + " cannot be turned by 90° in " +
+                (layout.name.empty() ? std::string("a picture") : "the layout " + layout.name) + ": they must be square");
+  }
+}
+
 void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart) {
+  assert((cell.quarter_turns & 1) == 0 ? chart.width == picture.width && chart.height == picture.height
+                                       : chart.width == picture.height && chart.height == picture.width);
   const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
   for (int y = 0; y < picture.height; ++y) {
     const float* from = picture.row(y);
@@ -258,6 +269,8 @@ void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, Imag
 }
 
 void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture) {
+  assert((cell.quarter_turns & 1) == 0 ? chart.width == picture.width && chart.height == picture.height
+                                       : chart.width == picture.height && chart.height == picture.width);
   const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
   for (int y = 0; y < picture.height; ++y) {
     const float* from = chart.data + map.start + y * map.step_y;

@@ -65,6 +65,9 @@ Layout with_faces(const Layout& layout, const sphere::AnyParameterization& param
 /// Size of a chart in a picture of this size, or nothing when the grid doesn't divide it.
 std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, int picture_height);
 
+/// Throws Error when the layout turns a cell by 90° or 270° and charts of this size, not being square, would no longer fit the grid.
+void check_turns(const Layout& layout, ChartSize size);
+
 /// Copies a chart out of a cell's pixels, or into them. Sizes match (swapped for odd quarter turns).
 void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart);
 void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture);

@@ -9,7 +9,7 @@
 
 namespace welkin {
 
-/// Texels of border around every chart at every level: enough for the widest kernel here (Lanczos, 3 on each side).
+/// Texels of border around every chart at every level: enough for the widest kernel here (Lanczos with four lobes).
 inline constexpr int kBorder = 4;
 
 inline constexpr int kMostChannels = 64;

@@ -8,37 +8,13 @@
 
 #include "welkin/base/error.h"
 #include "welkin/map/borders.h"
+#include "welkin/map/map_file_job.h"
 
 namespace welkin {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kShapeKey = "welkin.parameterization";
-constexpr const char* kFacesKey = "welkin.faces";
-constexpr const char* kChartKey = "welkin.chart";
-constexpr const char* kOrientationKey = "welkin.orientation";
-
-/// The file of one chart: `%s` replaced by the chart's name.
-fs::path chart_path(const fs::path& pattern, const std::string& chart) {
-  std::string text = pattern.string();
-  text.replace(text.find("%s"), 2, chart);
-  return text;
-}
-
-bool is_pattern(const fs::path& path) { return path.string().find("%s") != std::string::npos; }
-
-std::string text_of(const Matrix3& m) {
-  std::string text;
-  for (const auto& row : m.rows) {
-    for (double value : row) {
-      char number[32];
-      std::snprintf(number, sizeof number, "%.17g", value);
-      text += (text.empty() ? "" : " ") + std::string(number);
-    }
-  }
-  return text;
-}
+using namespace map_file;
 
 std::optional<Matrix3> matrix_from(const std::string& text) {
   std::istringstream in(text);
@@ -65,8 +41,6 @@ bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
   return std::fabs(wide - chart.width) <= std::max(1.0, 0.01 * wide) || std::fabs(high - chart.height) < 1;
 }
 
-std::string text_of(ChartSize size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
-
 /// What a picture's size suggests.
 std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& file, bool pattern) {
   const int width = file.parts[0].width, height = file.parts[0].height;
@@ -84,13 +58,15 @@ std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& fil
   return std::nullopt;
 }
 
-Layout layout_for(const Layout& layout, const sphere::AnyParameterization& p, const Matrix3& orientation) {
-  return determinant(orientation) < 0 ? for_reflected_world(layout, p) : layout;
-}
-
 std::string attribute(const io::FileInfo& file, const char* key) {
   const auto found = file.attributes.find(key);
   return found == file.attributes.end() ? std::string() : found->second;
+}
+
+/// The declared safety border, 0 when there is none or it makes no sense.
+int border_from(const std::string& text) {
+  const long value = std::strtol(text.c_str(), nullptr, 10);
+  return value > 0 && value < (1 << 20) ? static_cast<int>(value) : 0;
 }
 
 /// Whether another program turned our map into the one that its `envmap` declares, and copied our declaration along.
@@ -198,11 +174,19 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   const io::PartInfo& part = file.parts[kind == LayoutKind::layers ? 0 : options.part];
   Layout single;  // one chart per picture
   const MapShape per_picture{info.shape->parameterization, kind == LayoutKind::picture ? info.shape->layout : single};
+  info.border = options.border;
+  if (!options.shape && options.border == 0) info.border = border_from(attribute(file, kBorderKey));
   // Texels that aren't square were asked for, where the file gives the very size of its charts.
-  const std::optional<ChartSize> divided = chart_size_in(per_picture.layout, part.width, part.height);
+  const int columns = per_picture.layout.columns, rows = per_picture.layout.rows;
+  const int inner_width = part.width - 2 * info.border * columns, inner_height = part.height - 2 * info.border * rows;
+  if (inner_width < 1 || inner_height < 1) {
+    throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
+                " leaves nothing inside a border of " + std::to_string(info.border));
+  }
+  const std::optional<ChartSize> divided = chart_size_in(per_picture.layout, inner_width, inner_height);
   const bool as_written = !options.shape && divided && text_of(*divided) == attribute(file, kChartKey);
   if (as_written) info.chart = *divided;
-  if (!as_written && !size_fits(per_picture, part.width, part.height, info.chart)) {
+  if (!as_written && !size_fits(per_picture, inner_width, inner_height, info.chart)) {
     char aspect[32];
     std::snprintf(aspect, sizeof aspect, "%.4g",
                   info.shape->parameterization.aspect() * per_picture.layout.columns / per_picture.layout.rows);
@@ -212,6 +196,11 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
                      ? " in " + std::to_string(per_picture.layout.columns) + "×" +
                            std::to_string(per_picture.layout.rows) + " equal cells"
                      : ""));
+  }
+  try {
+    check_turns(info.shape->layout, info.chart);
+  } catch (const Error& error) {
+    throw Error(path.string() + ": " + error.what());
   }
   info.shape = for_chart_size(*info.shape, info.chart);
   return info;
@@ -242,11 +231,17 @@ LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
   for (std::size_t i = 0; i < channels.size(); ++i) {
     map.channel_names[i] = info.image.parts[first_part].channels[static_cast<std::size_t>(channels[i])];
   }
-  const auto plain = [](const LayoutCell& cell) { return !cell.mirrored && cell.quarter_turns == 0; };
+  const int border = info.border;
+  const auto plain = [border](const LayoutCell& cell) {
+    return !cell.mirrored && cell.quarter_turns == 0 && border == 0;
+  };
+  const auto inner = [border](ImageView<const float> picture) {
+    return picture.part(border, border, picture.width - 2 * border, picture.height - 2 * border);
+  };
   /// One picture holds one chart: straight into the map where it is neither turned nor mirrored.
   const auto read_chart = [&](io::Reader& from, std::size_t part, const LayoutCell& cell, const std::string& file) {
     const io::PartInfo& other = from.info().parts.at(part);
-    if (other.width != info.chart.width || other.height != info.chart.height) {
+    if (other.width - 2 * border != info.chart.width || other.height - 2 * border != info.chart.height) {
       throw Error(file + ": is " + std::to_string(other.width) + "×" + std::to_string(other.height) +
                   ", but the first face is " + std::to_string(info.chart.width) + "×" +
                   std::to_string(info.chart.height));
@@ -257,7 +252,7 @@ LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
     if (plain(cell)) return from.read(part, own, map.level.chart(cell.chart));
     Image picture(other.width, other.height, count);
     from.read(part, own, picture.view());
-    copy_from_cell(cell, picture.view(), map.level.chart(cell.chart));
+    copy_from_cell(cell, inner(picture.view()), map.level.chart(cell.chart));
   };
   switch (layout.kind) {
     case LayoutKind::files: {
@@ -281,81 +276,12 @@ LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
         Image picture(part.width, part.height, count);
         reader->read(options.part, channels, picture.view());
         for (const LayoutCell& cell : layout.cells) {
-          copy_from_cell(cell, cell_of<const float>(layout, cell, picture.view()), map.level.chart(cell.chart));
+          copy_from_cell(cell, inner(cell_of<const float>(layout, cell, picture.view())), map.level.chart(cell.chart));
         }
       }
   }
   fill_borders(map);
   return {std::move(map), std::move(info)};
-}
-
-io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& layout, const WriteMapOptions& options) {
-  const auto& p = map.parameterization;
-  Layout placed = layout_for(layout, p, map.orientation);
-  if (!options.faces.empty()) placed = with_faces(placed, p, options.faces);
-  const bool pattern = is_pattern(path);
-  if (pattern != (placed.kind == LayoutKind::files)) {
-    throw Error(path.string() + (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
-                                         : ": several files are written: put %s in the name, where the face's name goes"));
-  }
-  io::WriteOptions image = options.image;
-  image.attributes[kShapeKey] = MapShape{p, layout}.text();
-  image.attributes[kChartKey] = text_of(ChartSize{map.width(), map.height()});
-  if (!options.faces.empty()) image.attributes[kFacesKey] = options.faces;
-  // OpenEXR's attribute also says how the world lies: as the native one.
-  if (!(map.orientation == Matrix3{})) {
-    image.attributes[kOrientationKey] = text_of(map.orientation);
-  } else if (p.name() == "openexr-latlong") {
-    image.envmap = "latlong";
-  } else if (p.name() == "openexr-cube" && layout.name == "openexr" && options.faces.empty()) {
-    image.envmap = "cube";
-  }
-
-  const auto turned_size = [&](const LayoutCell& cell) {
-    const bool swap = (cell.quarter_turns & 1) != 0;
-    return swap ? ChartSize{map.height(), map.width()} : ChartSize{map.width(), map.height()};
-  };
-  const auto picture_of = [&](const LayoutCell& cell) {
-    const ChartSize size = turned_size(cell);
-    Image picture(size.width, size.height, map.channels());
-    copy_to_cell(cell, map.level.chart(cell.chart), picture.view());
-    return picture;
-  };
-  const std::vector<std::string> names = chart_names(p);
-  switch (placed.kind) {
-    case LayoutKind::files: {
-      io::WriteReport total;
-      for (std::size_t i = 0; i < placed.cells.size(); ++i) {
-        const Image picture = picture_of(placed.cells[i]);
-        const io::WritePart part{"", picture.view(), map.channel_names};
-        const io::WriteReport report = io::write(chart_path(path, names[i]), {&part, 1}, image);
-        total.above += report.above;
-        total.below += report.below;
-        total.not_finite += report.not_finite;
-      }
-      return total;
-    }
-    case LayoutKind::layers: {
-      std::vector<Image> pictures;
-      std::vector<io::WritePart> parts;
-      for (const LayoutCell& cell : placed.cells) pictures.push_back(picture_of(cell));
-      for (std::size_t i = 0; i < pictures.size(); ++i) {
-        parts.push_back({names[i], static_cast<const Image&>(pictures[i]).view(), map.channel_names});
-      }
-      return io::write(path, parts, image);
-    }
-    case LayoutKind::picture: break;
-  }
-  if (placed.cells.size() == 1 && !placed.cells[0].mirrored && placed.cells[0].quarter_turns == 0) {
-    const io::WritePart part{"", map.level.chart(0), map.channel_names};
-    return io::write(path, {&part, 1}, image);
-  }
-  Image picture(placed.columns * map.width(), placed.rows * map.height(), map.channels());
-  for (const LayoutCell& cell : placed.cells) {
-    copy_to_cell(cell, map.level.chart(cell.chart), cell_of(placed, cell, picture.view()));
-  }
-  const io::WritePart part{"", static_cast<const Image&>(picture).view(), map.channel_names};
-  return io::write(path, {&part, 1}, image);
 }
 
 }  // namespace welkin

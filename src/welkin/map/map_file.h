@@ -19,6 +19,7 @@ struct ReadMapOptions {
   std::vector<std::string> channels;
   /// How the file's directions relate to the native world (convention.h); without it, what the file declares, else native.
   std::optional<Matrix3> orientation;
+  int border = 0;        ///< texels of safety border around every chart in the file, besides what the file declares
   std::size_t part = 0;  ///< of a file with several pictures, unless these are the charts
   io::ReadOptions image;
 };
@@ -29,6 +30,7 @@ struct MapFileInfo {
   std::optional<MapShape> shape;     ///< none when nothing declares it and the size suggests nothing
   std::string reason;                ///< why this shape: `declared by the file`, `guessed from 2:1`…
   ChartSize chart;                   ///< meaningful when there is a shape
+  int border = 0;                    ///< safety border around every chart in the file, texels
   Matrix3 orientation;
 };
 
@@ -48,6 +50,7 @@ LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& opti
 struct WriteMapOptions {
   io::WriteOptions image;
   std::string faces;  ///< see with_faces
+  int border = 0;     ///< texels of safety border to write around every chart (safety_border.h); the map's borders must be filled
 };
 
 /// Writes the charts in the layout. The parameterization, layout, faces and orientation go into the file's text metadata where

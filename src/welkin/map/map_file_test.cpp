@@ -90,6 +90,20 @@ TEST_F(MapFile, FacesAndOrientationComeBack) {
   }
 }
 
+TEST_F(MapFile, SafetyBordersComeOffAgain) {
+  for (const char* shape : {"octahedral", "cube:flat", "paraboloid:hstrip", "cube:layers"}) {
+    const MapShape parsed = parse_map_shape(shape);
+    Map map = numbered(parsed.parameterization, 8, 8, 3);
+    fill_borders(map);
+    WriteMapOptions options;
+    options.border = 6;
+    write_map(file("bordered.exr"), map, parsed.layout, options);
+    const LoadedMap back = read_map(file("bordered.exr"));
+    EXPECT_EQ(back.info.border, 6);
+    expect_same(map, back.map);
+  }
+}
+
 TEST_F(MapFile, GuessesBySize) {
   const auto guess = [&](int width, int height) {
     const Image picture(width, height, 3);

@@ -10,7 +10,7 @@ namespace welkin {
 
 /// How a map is read between its texels.
 enum class Filter {
-  automatic,  ///< magnified: Catmull–Rom; minified: the mean over the solid angle of the new texel (docs/filtering.md)
+  automatic,  ///< magnified: Lanczos, four lobes, 8×8 texels; minified: the mean over the solid angle of the new texel (docs/filtering.md)
   nearest,    ///< the texel that holds the point
   bilinear,   ///< 2×2 texels; aliases when minified, as do all below
   bicubic,    ///< Catmull–Rom, 4×4 texels
@@ -35,7 +35,7 @@ struct ResampleOptions {
 
 /// Fills the target's charts (not its borders) from the source, whose borders must be filled. Both have the same number of
 /// channels. Reads the source only; besides it needs at most a pyramid of a third of the source, and only to minify more
-/// than eightfold. Positions are exact to 1e-6 of a chart's side; the error of `automatic` against exact area sampling is measured in
+/// than sixteenfold. Positions are exact to 1e-6 of a chart's side; the error of `automatic` against exact area sampling is measured in
 /// docs/benchmarks.md. Throws Cancelled.
 ///
 /// A target of the source's own parameterization, size and orientation gets the texels as they are.
