@@ -19,7 +19,7 @@ version() { dpkg-query -W -f='${Version}' "$1" 2>/dev/null | sed 's/^[0-9]*://; 
 
 # psnr REFERENCE MAP: dB, peak 1; a dash without a reference.
 psnr() {
-  if [[ $1 == - ]]; then echo -; return; fi
+  if [[ $1 == - ]]; then echo —; return; fi
   "$welkin" diff "$1" "$2" --peak 1 | sed -n 's/^all .*PSNR \([0-9.]*\) dB.*/\1/p'
 }
 
@@ -52,7 +52,7 @@ TEXT
 
 "$build/bench/make_picture" source.tif 4096
 convert source.tif source.exr --colour linear
-"$build/bench/reference" source.exr bilinear.exr $face bilinear
+"$build/bench/reference" source.exr bilinear.exr "$face" bilinear
 faces=(cube:layers)
 missing=()
 
@@ -61,7 +61,7 @@ if command -v ffmpeg >/dev/null; then
     interpolation=${kernel/bilinear/line}
     peer=(ffmpeg -y -v error -threads "$threads" -filter_threads "$threads" -i source.tif
       -vf "v360=e:c6x1:interp=$interpolation:w=$((6 * face)):h=$face:out_forder=lrudfb" -pix_fmt rgb48le -compression_algo raw peer.tif)
-    ours=("$welkin" convert -j "$threads" source.tif ours.tif --colour linear --to-colour linear --to cube:hstrip --size $face
+    ours=("$welkin" convert -j "$threads" source.tif ours.tif --colour linear --to-colour linear --to cube:hstrip --size "$face"
       --filter "$kernel" --type uint16 --compression none)
     reference=bilinear.exr
     if [[ $kernel == lanczos ]]; then reference=-; fi
@@ -81,7 +81,7 @@ if command -v nona >/dev/null; then
   done
   export OMP_NUM_THREADS=$threads
   peer=(sh -c 'for face in px nx py ny pz nz; do nona -o nona_$face $face.pto >/dev/null || exit 1; done')
-  ours=("$welkin" convert -j "$threads" source.tif 'ours_%s.tif' --colour linear --to-colour linear --to cube:faces --size $face
+  ours=("$welkin" convert -j "$threads" source.tif 'ours_%s.tif' --colour linear --to-colour linear --to cube:faces --size "$face"
     --filter bilinear --type uint16 --compression none)
   peer_row "nona $(version hugin-tools), six runs, bilinear, 16-bit TIFF" 'nona_%s0000.tif' cube:faces 'ours_%s.tif' cube:faces bilinear.exr
 else
@@ -92,13 +92,13 @@ if command -v exrenvmap >/dev/null; then
   faces=(openexr-cube:layers)
   openexr=$(version openexr)
   convert source.exr half.exr --from openexr-latlong --to openexr-latlong --type half --compression none
-  "$build/bench/reference" half.exr bilinear.exr $face bilinear openexr
+  "$build/bench/reference" half.exr bilinear.exr "$face" bilinear openexr
   "$build/bench/reference" half.exr area.exr 256 32 openexr
   ours=("$welkin" convert -j "$threads" half.exr ours_openexr.exr --from openexr-latlong --to openexr-cube --type half --compression none)
   files=(peer_openexr.exr openexr-cube ours_openexr.exr openexr-cube)
   plain=("${ours[@]}")
-  peer=(exrenvmap -li -c -f 0 1 -w $face half.exr peer_openexr.exr)
-  ours=("${plain[@]}" --size $face --filter bilinear)
+  peer=(exrenvmap -li -c -f 0 1 -w "$face" half.exr peer_openexr.exr)
+  ours=("${plain[@]}" --size "$face" --filter bilinear)
   peer_row "exrenvmap $openexr, one sample per texel, half EXR" "${files[@]}" bilinear.exr
   peer=(exrenvmap -li -c -w 256 half.exr peer_openexr.exr)
   ours=("${plain[@]}" --size 256)
@@ -110,9 +110,9 @@ fi
 if [[ -n ${WELKIN_BENCH_CMFT:-} ]]; then
   faces=(cube:layers)
   convert source.exr source.hdr
-  "$build/bench/reference" source.hdr bilinear.exr $face bilinear
+  "$build/bench/reference" source.hdr bilinear.exr "$face" bilinear
   peer=("$WELKIN_BENCH_CMFT" --silent --input source.hdr --filter none --outputNum 1 --output0 cmft --output0params hdr,rgbe,hcross)
-  ours=("$welkin" convert -j "$threads" source.hdr ours.hdr --to cube:hcross --size $face --filter bilinear)
+  ours=("$welkin" convert -j "$threads" source.hdr ours.hdr --to cube:hcross --size "$face" --filter bilinear)
   peer_row 'cmft, bilinear, .hdr' cmft.hdr cube:hcross ours.hdr cube:hcross bilinear.exr
 else
   missing+=('cmft (WELKIN_BENCH_CMFT=its path)')

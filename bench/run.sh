@@ -16,6 +16,12 @@ build=$(cd -- "${1:?run.sh BUILD_FOLDER [WHAT…]}" && pwd)
 shift
 chosen=("$@")
 ((${#chosen[@]})) || chosen=("${everything[@]}")
+for each in "${chosen[@]}"; do
+  if [[ " ${everything[*]} " != *" $each "* ]]; then
+    printf 'run.sh: no benchmark is called %s; there are: %s\n' "$each" "${everything[*]}" >&2
+    exit 2
+  fi
+done
 
 work=$build/bench/work
 rm -rf "$work"
@@ -38,8 +44,7 @@ run_one() {
   case $1 in
     commands | peers) bash "$here/$1.sh" "$build" "$work" ;;
     read_speed) "$build/bench/read_speed" "$work" ;;
-    resample_speed | filter_quality | round_trip | every_parameterization) "$build/bench/$1" ;;
-    *) printf 'run.sh: no benchmark is called %s; there are: %s\n' "$1" "${everything[*]}" >&2; exit 2 ;;
+    *) "$build/bench/$1" ;;
   esac
 }
 

@@ -47,12 +47,11 @@ CLI::Validator finite_number(double least) {
   return CLI::Validator(check, "");
 }
 
-std::string printable(std::string text) {
-  constexpr std::size_t kLongest = 200;
+std::string printable(std::string text, std::size_t longest) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "…";
+  if (text.size() > longest) text = text.substr(0, longest) + "…";
   return text;
 }
 

@@ -42,8 +42,8 @@ void add_list(CLI::App& app);
 /// Accepts finite numbers of at least `least`.
 CLI::Validator finite_number(double least = -std::numeric_limits<double>::max());
 
-/// Text of a file or a pipe for the terminal: control characters become `?`, and a long text is cut.
-std::string printable(std::string text);
+/// Text of a file or a pipe for the terminal: control characters become `?`, and a text of over `longest` bytes is cut.
+std::string printable(std::string text, std::size_t longest = 200);
 
 /// `1,2.5,-3`: numbers separated by commas. Throws UsageError, naming the option.
 std::vector<double> parse_numbers(std::string_view option, const std::string& text);

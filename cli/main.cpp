@@ -26,7 +26,9 @@ std::string explain_extras(const CLI::App& app, const std::string& what) {
   std::vector<std::string> options;
   for (const CLI::App* each : {command, &app}) {
     for (const CLI::Option* option : each->get_options()) {
-      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+      for (const std::string& name : option->get_lnames()) {
+        if (std::count(options.begin(), options.end(), "--" + name) == 0) options.push_back("--" + name);
+      }
     }
     if (command == &app) break;
   }
@@ -106,7 +108,8 @@ constexpr const char* kNoOutput = "standard output: cannot be written";
 int report(int status, const char* what) {
   cli::end_progress();
   std::fflush(stdout);
-  cli::tell(fmt::format("welkin: {}\n", what));
+  constexpr std::size_t kLongest = 4096;
+  cli::tell(fmt::format("welkin: {}\n", cli::printable(what, kLongest)));
   return status;
 }
 

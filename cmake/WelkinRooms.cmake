@@ -10,6 +10,10 @@ function(welkin_warnings target)
     # GCC 12 warns falsely of "literal" + std::string (GCC bug 105329).
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    # The sanitizers' instrumentation makes GCC doubt variables of xsimd that are always set.
+    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
+  endif()
   if(WELKIN_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -5,8 +5,12 @@
 # bad_input_test.sh WELKIN
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
-# 2 GiB of address space for the program is plenty for these maps, and shows who believes a header that promises more.
-ulimit -v 4000000
+# 4 GB of address space is plenty for these maps, and shows who believes a header that promises more. (Sanitizers need far more.)
+limited=false
+if (ulimit -v 4000000 && "$welkin" list >/dev/null 2>&1); then
+  ulimit -v 4000000
+  limited=true
+fi
 
 must synth axes map.exr --size 32
 mkdir folder
@@ -136,6 +140,16 @@ refuses 1 "map.exr: has no part 1 \(parts are 0 to 0\)" info map.exr --part 1
 refuses 1 "map.exr: unknown channel 'Q'" convert map.exr out.exr --channels Q
 refuses 1 "unknown channel 'Z'" convert map.exr out.exr --channels R,G,Z
 
+# Faces that are nearly square fit a grid, but not turned by 90°.
+for layout in hcross:192:147 flat:192:147 bands:192:130; do
+  IFS=: read -r layout width height <<<"$layout"
+  {
+    printf 'PF\n%d %d\n-1\n' "$width" "$height"
+    head -c $((width * height * 12)) /dev/zero
+  } >oblong.pfm
+  if [[ $layout == hcross ]]; then must info oblong.pfm --from cube:$layout; else refuses 1 "oblong.pfm: faces of .* cannot be turned" info oblong.pfm --from cube:$layout; fi
+done
+
 # Files of faces: too few, of two sizes, of none.
 must synth axes face-%s.exr --to cube:faces --size 8
 refuses 1 "none-px.exr: No such file" info none-%s.exr
@@ -164,6 +178,6 @@ run info map.exr missing.exr
 ((status == 1)) && grep -q '^map.exr$' "$work/out" && grep -q '^welkin: missing.exr: ' "$work/messages" || fail "info of a good file and a bad one"
 
 # More than memory holds.
-refuses 1 "out of memory" synth axes out.exr --size 1048576
+if $limited; then refuses 1 "out of memory" synth axes out.exr --size 1048576; fi
 
 finish

@@ -52,6 +52,8 @@ for command in "convert map.exr" "synth axes"; do
     refuses 2 "--progress: " --progress maybe $command out.exr
   }
 done
+for layout in flat bands; do refuses 2 "--size: faces of 8×4 cannot be turned" convert cube.exr out.exr --to cube:$layout --size 8x4; done
+refuses 2 "--size: faces of 8×4 cannot be turned" synth axes out.exr --to cube --size 8x4 --to-faces px:90,nx,py,ny,pz,nz
 refuses 2 "--filter: unknown filter 'bilinar'; did you mean 'bilinear'\?" convert map.exr out.exr --filter bilinar
 refuses 2 "--from: unknown parameterization 'latlon'; did you mean 'latlong'\?" info map.exr --from latlon
 refuses 2 "--from-convention: unknown convention 'unty'; did you mean 'unity'\?" info map.exr --from-convention unty
@@ -102,6 +104,15 @@ refuses 2 "name the parameterization to draw with --of" plot density out.png
 checks=$((checks + 1))
 run
 ((status == 2)) && grep -q '^Usage: welkin' "$work/out" || fail "welkin alone doesn't tell how it is used"
+
+# Any file name will do, even one that is not UTF-8, begins with a dash or has spaces.
+for name in $'\xff.exr' "-x.exr" "a b.exr" "ä.exr" "new
+line.exr"; do
+  must convert map.exr -- "$name"
+  must diff -- map.exr "$name"
+  must diff --json -- map.exr "$name"
+  must info --json -- "$name"
+done
 
 # What comes on standard input is not echoed raw.
 while IFS= read -r line; do

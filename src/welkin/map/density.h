@@ -25,7 +25,8 @@ struct DensityReport {
   /// The charts side by side, linear sRGB: see draw_density.
   Image picture;
 };
-inline constexpr double kUnboundedRatio = 1e6;
+/// Less than the 10⁴ at which fisheye-orthographic caps its density at the rim.
+inline constexpr double kUnboundedRatio = 5e3;
 
 /// For charts of `size` texels across, 2 … 16384, and as high as makes texels square. Throws Error outside.
 DensityReport density_of(const sphere::AnyParameterization& parameterization, int size);

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# `list` and `help` know every command and every name.
+#
+# list_test.sh WELKIN
+source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
+
+must synth axes card.exr --size 16
+for what in conventions filters formats layouts maps parameterizations parameters; do matches . list $what; done
+for command in info convert sample diff synth plot list help; do
+  matches "^Usage: welkin $command" help $command
+  matches "^Usage: welkin $command" $command --help
+  matches "^  $command " --help
+done
+matches '^Usage: welkin plot density' help plot density
+matches '^welkin [0-9]+\.[0-9]+\.[0-9]+$' --version
+for format in $("$welkin" list formats); do must convert card.exr "listed.$format"; done
+
+finish
