@@ -129,6 +129,7 @@ ReadMapOptions ReadFlags::parse() const {
       throw UsageError("--channels: '" + channel + "' is named twice");
     }
   }
+  options.border = border;
   options.part = static_cast<std::size_t>(part);
   options.image.colour = parse_colour("--colour", colour);
   if (!convention.empty()) parse_option("--from-convention", [&] { return convention_from_name(convention); });
@@ -219,6 +220,9 @@ void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& 
   parse_option("--size", [&] {
     check_turns(flags.faces.empty() ? shape.layout : with_faces(shape.layout, shape.parameterization, flags.faces), size);
   });
+  if (flags.border > size.width || flags.border > size.height) {
+    throw UsageError(fmt::format("--border: {} texels are more than a chart of {}×{} has", flags.border, size.width, size.height));
+  }
 }
 
 void report_losses(const std::string& path, const io::WriteReport& report) {

@@ -87,7 +87,7 @@ struct WriteFlags {
 /// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't fit
 /// (extension, `%s`, faces), Error for a folder that doesn't take the file.
 void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags = {});
-/// The same of the size: UsageError where the layout turns charts that aren't square.
+/// The same of the size: UsageError where the layout turns charts that aren't square, or the border is wider than one.
 void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& flags);
 
 /// Warns on stderr of values that a format could not hold.

@@ -105,6 +105,10 @@ checks=$((checks + 1))
 run
 ((status == 2)) && grep -q '^Usage: welkin' "$work/out" || fail "welkin alone doesn't tell how it is used"
 
+refuses 2 "--border: 9 texels are more than a chart of 8×4 has" convert map.exr out.exr --size 8x4 --border 9
+refuses 2 "--border: " convert map.exr out.exr --border -1
+refuses 2 "--from-border: " convert map.exr out.exr --from-border -1
+
 # Any file name will do, even one that is not UTF-8, begins with a dash or has spaces.
 for name in $'\xff.exr' "-x.exr" "a b.exr" "ä.exr" "new
 line.exr"; do

@@ -28,6 +28,14 @@ while read -r shape; do
     must convert reference.exr "$file$place.pfm" --to "$shape"
     same reference.exr "$file$place.pfm" 0 --from-b "$shape"
   fi
+  # A safety border around every chart is written and left out again: declared by the file, or named.
+  must convert reference.exr "$file$place.exr" --to "$shape" --border 3
+  same reference.exr "$file$place.exr" 0
+  if [[ $layout != layers ]]; then
+    must convert reference.exr "$file$place.pfm" --to "$shape" --border 1
+    must convert "$file$place.pfm" bare.exr --from "$shape" --from-border 1 --to "$name:layers"
+    same reference.exr bare.exr 0
+  fi
   rm -f map*
 done <layouts
 

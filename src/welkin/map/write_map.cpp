@@ -28,12 +28,12 @@ io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& la
   image.attributes[kShapeKey] = MapShape{p, layout}.text();
   image.attributes[kChartKey] = text_of(ChartSize{map.width(), map.height()});
   if (!options.faces.empty()) image.attributes[kFacesKey] = options.faces;
-  // OpenEXR's attribute also says how the world lies: as the native one.
+  // OpenEXR's attribute also says how the world lies: as the native one; and it knows no borders.
   if (!(map.orientation == Matrix3{})) {
     image.attributes[kOrientationKey] = text_of(map.orientation);
-  } else if (p.name() == "openexr-latlong") {
+  } else if (p.name() == "openexr-latlong" && options.border == 0) {
     image.envmap = "latlong";
-  } else if (p.name() == "openexr-cube" && layout.name == "openexr" && options.faces.empty()) {
+  } else if (p.name() == "openexr-cube" && layout.name == "openexr" && options.faces.empty() && options.border == 0) {
     image.envmap = "cube";
   }
 
