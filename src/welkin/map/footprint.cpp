@@ -105,7 +105,20 @@ struct Planner {
 
   Footprint at(double x, double y) const { return footprint_at(source, target, to_source, chart, x, y); }
 
+  /// Whether none of nine points of a rectangle is a place of the target: it lies outside a disc, all but a sliver perhaps.
+  bool outside(int x, int y, int width, int height) const {
+    for (int i = 0; i < 9; ++i) {
+      const double u = (x + 0.5 * (i % 3) * width) / target.width(), v = (y + 0.5 * (i / 3) * height) / target.height();
+      if (target.parameterization.valid(chart, u, v)) return false;
+    }
+    return true;
+  }
+
   void plan(int x, int y, int width, int height) {
+    if (outside(x, y, width, height)) {
+      tiles.push_back({chart, x, y, width, height, 1, 1, 0, false, {}, {}});
+      return;
+    }
     const Footprint corners[5] = {at(x, y), at(x + width, y), at(x, y + height), at(x + width, y + height),
                                   at(x + 0.5 * width, y + 0.5 * height)};
     Range right, down;
