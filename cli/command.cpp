@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "terminal.h"
+#include "progress.h"
 #include "welkin/io/output_file.h"
 #include "welkin/map/convention.h"
 
@@ -74,7 +74,8 @@ ChartSize parse_chart_size(std::string_view option, const std::string& text,
     char* end = nullptr;
     const long value = std::strtol(part.c_str(), &end, 10);
     if (part.empty() || *end != '\0' || value < 1 || value > (1 << 20)) {
-      throw UsageError(fmt::format("{}: '{}' is not a size: write N or WxH in texels, 1 to 1048576", option, text));
+      throw UsageError(
+          fmt::format("{}: '{}' is not a size: write N or WxH in texels, 1 to 1048576", option, text));
     }
     return static_cast<int>(value);
   };
@@ -100,18 +101,27 @@ Matrix3 parse_rotation(std::string_view option, const std::string& text) {
     }
     return orthonormalize(matrix);
   }
-  throw UsageError(fmt::format("{}: give yaw,pitch,roll in degrees, a quaternion w,x,y,z or nine matrix entries", option));
+  throw UsageError(
+      fmt::format("{}: give yaw,pitch,roll in degrees, a quaternion w,x,y,z or nine matrix entries", option));
 }
 
 void ReadFlags::add(CLI::App& command) {
-  command.add_option("--from", from, "Parameterization of the input: NAME[:LAYOUT][,PARAMETER=VALUE] (see `welkin list`). "
-                                     "Default: what the file declares, else a guess from its size");
-  command.add_option("--from-faces", faces, "Order and turns of the input's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
-  command.add_option("--from-convention", convention, "World of the input: three.js, blender… (`welkin list conventions`)");
-  command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb")->capture_default_str();
-  command.add_option("--channels", channels, "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
-  command.add_option("--part", part, "Which picture of a file with several (from 0)")->check(CLI::Range(0, 1 << 30));
-  command.add_option("--from-border", border, "Texels of safety border around every chart of the input, where it doesn't declare them")
+  command.add_option("--from", from,
+                     "Parameterization of the input: NAME[:LAYOUT][,PARAMETER=VALUE] (see `welkin list`). "
+                     "Default: what the file declares, else a guess from its size");
+  command.add_option("--from-faces", faces,
+                     "Order and turns of the input's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
+  command.add_option("--from-convention", convention,
+                     "World of the input: three.js, blender… (`welkin list conventions`)");
+  command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb")
+      ->capture_default_str();
+  command.add_option("--channels", channels,
+                     "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
+  command.add_option("--part", part, "Which picture of a file with several (from 0)")
+      ->check(CLI::Range(0, 1 << 30));
+  command
+      .add_option("--from-border", border,
+                  "Texels of safety border around every chart of the input, where it doesn't declare them")
       ->check(CLI::Range(0, 65536));
 }
 
@@ -132,35 +142,44 @@ ReadMapOptions ReadFlags::parse() const {
   options.border = border;
   options.part = static_cast<std::size_t>(part);
   options.image.colour = parse_colour("--colour", colour);
-  if (!convention.empty()) parse_option("--from-convention", [&] { return convention_from_name(convention); });
+  if (!convention.empty())
+    parse_option("--from-convention", [&] { return convention_from_name(convention); });
   return options;
 }
 
-LoadedMap ReadFlags::read(const std::string& path) const {
+MapReader ReadFlags::open(const std::string& path) const {
   ReadMapOptions options = parse();
-  if (!faces.empty()) {
-    ReadMapOptions unturned = options;
-    unturned.faces.clear();
-    if (const auto shape = inspect_map(path, unturned).shape) {
-      parse_option("--from-faces", [&] { return with_faces(shape->layout, shape->parameterization, faces); });
-    }
-  }
+  options.faces.clear();
+  MapReader reader(path, options);
+  if (!reader.info().shape) return reader;
   if (!convention.empty()) {
-    const MapFileInfo info = inspect_map(path, options);
-    if (info.shape) {
-      options.orientation = orientation_for(convention_from_name(convention), info.shape->parameterization);
-    }
+    reader.set_orientation(
+        orientation_for(convention_from_name(convention), reader.info().shape->parameterization));
   }
-  return read_map(path, options);
+  if (!faces.empty()) parse_option("--from-faces", [&] { reader.set_faces(faces); });
+  return reader;
+}
+
+LoadedMap ReadFlags::read(const std::string& path) const {
+  MapReader reader = open(path);
+  return {reader.read(), reader.info()};
 }
 
 void WriteFlags::add(CLI::App& command) {
-  command.add_option("--to-faces", faces, "Order and turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
-  command.add_option("--type", type, "Stored values: uint8, uint16, uint32, half, float. Default: the format's best");
-  command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")->capture_default_str();
+  command.add_option("--to-faces", faces,
+                     "Order and turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
+  command.add_option("--type", type,
+                     "Stored values: uint8, uint16, uint32, half, float. Default: the format's best");
+  command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")
+      ->capture_default_str();
   command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");
-  command.add_option("--quality", quality, "Quality of lossy formats")->check(CLI::Range(1, 100))->capture_default_str();
-  command.add_option("--border", border, "Texels of safety border to write around every chart, for renderers that know no chart edges")
+  command.add_option("--quality", quality, "Quality of lossy formats")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--border", border,
+          "Texels of safety border to write around every chart, for renderers that know no chart edges")
       ->check(CLI::Range(0, 65536));
 }
 
@@ -173,8 +192,8 @@ WriteMapOptions WriteFlags::parse() const {
   options.image.quality = quality;
   if (!type.empty()) {
     std::vector<std::string> names;
-    for (const auto each : {io::PixelType::uint8, io::PixelType::uint16, io::PixelType::uint32, io::PixelType::half,
-                            io::PixelType::float32}) {
+    for (const auto each : {io::PixelType::uint8, io::PixelType::uint16, io::PixelType::uint32,
+                            io::PixelType::half, io::PixelType::float32}) {
       names.emplace_back(name_of(each));
       if (names.back() == type) options.image.type = each;
     }
@@ -194,14 +213,18 @@ void check_output(const std::string& path, const MapShape& shape, const WriteFla
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::vector<std::string> known = io::writable_extensions();
   if (std::count(known.begin(), known.end(), extension) == 0) {
-    throw UsageError(path + ": " + (extension.empty() ? fmt::format("the name has no extension to tell the format by (one of: {})", fmt::join(known, ", "))
-                                                      : unknown_name("extension", extension, known)));
+    throw UsageError(path + ": " +
+                     (extension.empty()
+                          ? fmt::format("the name has no extension to tell the format by (one of: {})",
+                                        fmt::join(known, ", "))
+                          : unknown_name("extension", extension, known)));
   }
   const std::size_t place = path.find("%s");
   const bool pattern = place != std::string::npos;
   if (pattern != (layout.kind == LayoutKind::files)) {
-    throw UsageError(path + (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
-                                     : ": several files are written: put %s in the name, where the face's name goes"));
+    throw UsageError(
+        path + (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
+                        : ": several files are written: put %s in the name, where the face's name goes"));
   }
   const auto try_file = [](const std::string& file) {
     try {
@@ -218,10 +241,13 @@ void check_output(const std::string& path, const MapShape& shape, const WriteFla
 
 void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& flags) {
   parse_option("--size", [&] {
-    check_turns(flags.faces.empty() ? shape.layout : with_faces(shape.layout, shape.parameterization, flags.faces), size);
+    check_turns(
+        flags.faces.empty() ? shape.layout : with_faces(shape.layout, shape.parameterization, flags.faces),
+        size);
   });
   if (flags.border > size.width || flags.border > size.height) {
-    throw UsageError(fmt::format("--border: {} texels are more than a chart of {}×{} has", flags.border, size.width, size.height));
+    throw UsageError(fmt::format("--border: {} texels are more than a chart of {}×{} has", flags.border,
+                                 size.width, size.height));
   }
 }
 

@@ -6,13 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "progress.h"
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/io/image_file.h"
 #include "welkin/map/map_file.h"
 
-/// What the subcommands share. Each is one file with one add_… function: it declares its options, and its callback parses
-/// them, calls the library and prints.
+/// What the subcommands share. Each is one file with one add_… function: it declares its options, and its
+/// callback parses them, calls the library and prints.
 namespace welkin::cli {
 
 /// A request that makes no sense, found before any work: exit status 2.
@@ -42,7 +43,8 @@ void add_list(CLI::App& app);
 /// Accepts finite numbers of at least `least`.
 CLI::Validator finite_number(double least = -std::numeric_limits<double>::max());
 
-/// Text of a file or a pipe for the terminal: control characters become `?`, and a text of over `longest` bytes is cut.
+/// Text of a file or a pipe for the terminal: control characters become `?`, and a text of over `longest`
+/// bytes is cut.
 std::string printable(std::string text, std::size_t longest = 200);
 
 /// `1,2.5,-3`: numbers separated by commas. Throws UsageError, naming the option.
@@ -55,12 +57,8 @@ ChartSize parse_chart_size(std::string_view option, const std::string& text,
 /// `yaw,pitch,roll` in degrees, `w,x,y,z` (quaternion) or nine numbers (matrix, row by row; orthonormal).
 Matrix3 parse_rotation(std::string_view option, const std::string& text);
 
-/// A bar on stderr for work that takes over a second, on a terminal or as `--progress` says.
-Monitor progress_monitor(std::string what);
-/// Ends the bar's line, if there is one.
-void end_progress();
-
-/// Options of every command that reads a map, with a prefix for commands that read two (`--from`, `--from-faces`…).
+/// Options of every command that reads a map, with a prefix for commands that read two (`--from`,
+/// `--from-faces`…).
 struct ReadFlags {
   int border = 0;
   std::string from, faces, convention, colour = "auto", channels;
@@ -69,7 +67,8 @@ struct ReadFlags {
   void add(CLI::App& command);
   /// Throws UsageError.
   ReadMapOptions parse() const;
-  /// The options, with the convention applied to the file's own parameterization.
+  /// The file opened, with the faces and the convention applied to the file's own parameterization.
+  MapReader open(const std::string& path) const;
   LoadedMap read(const std::string& path) const;
 };
 
@@ -84,10 +83,11 @@ struct WriteFlags {
   WriteMapOptions parse() const;
 };
 
-/// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't fit
-/// (extension, `%s`, faces), Error for a folder that doesn't take the file.
+/// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't
+/// fit (extension, `%s`, faces), Error for a folder that doesn't take the file.
 void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags = {});
-/// The same of the size: UsageError where the layout turns charts that aren't square, or the border is wider than one.
+/// The same of the size: UsageError where the layout turns charts that aren't square, or the border is wider
+/// than one.
 void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& flags);
 
 /// Warns on stderr of values that a format could not hold.

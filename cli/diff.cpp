@@ -1,5 +1,9 @@
 #include <fmt/core.h>
 
+#include <cmath>
+#include <memory>
+#include <optional>
+
 #include <nlohmann/json.hpp>
 
 #include "command.h"
@@ -36,10 +40,11 @@ ordered_json json_of(const ErrorMeasures& e) {
 }
 
 void print(const ErrorMeasures& e) {
-  fmt::print("{:<8} rel. RMSE {:.6g}   RMSE {:.6g}   max {:.6g} along {:.3f},{:.3f},{:.3f}   PSNR {:.2f} dB   "
-             "energy {:.6f}\n",
-             e.name, e.relative_rmse, e.rmse, e.maximum_absolute, e.maximum_absolute_direction.x,
-             e.maximum_absolute_direction.y, e.maximum_absolute_direction.z, e.psnr, e.energy_ratio);
+  fmt::print(
+      "{:<8} rel. RMSE {:.6g}   RMSE {:.6g}   max {:.6g} along {:.3f},{:.3f},{:.3f}   PSNR {:.2f} dB   "
+      "energy {:.6f}\n",
+      e.name, e.relative_rmse, e.rmse, e.maximum_absolute, e.maximum_absolute_direction.x,
+      e.maximum_absolute_direction.y, e.maximum_absolute_direction.z, e.psnr, e.energy_ratio);
 }
 
 void Diff::run() const {
@@ -57,7 +62,8 @@ void Diff::run() const {
   options.monitor = progress_monitor("diff");
   std::optional<Map> picture;
   if (!heat.empty()) {
-    picture.emplace(sphere::AnyParameterization::make("latlong"), options.heat_width, options.heat_width / 2, 3);
+    picture.emplace(sphere::AnyParameterization::make("latlong"), options.heat_width, options.heat_width / 2,
+                    3);
   }
   const Comparison result = compare(reference.map, other.map, options, picture ? &*picture : nullptr);
   end_progress();
@@ -74,13 +80,14 @@ void Diff::run() const {
   } else {
     for (const ErrorMeasures& channel : result.channels) print(channel);
     print(result.all);
-    fmt::print("{} texels over {:.4f} sr compared {}{}; PSNR is relative to {:g}\n", result.texels, result.solid_angle,
-               result.texel_by_texel ? "one by one" : "at the finer map's texels",
-               result.skipped > 0 ? fmt::format(", {} skipped (NaN or infinite)", result.skipped) : "", result.peak);
+    fmt::print("{} texels over {:.4f} sr compared {}{}; PSNR is relative to {:g}\n", result.texels,
+               result.solid_angle, result.texel_by_texel ? "one by one" : "at the finer map's texels",
+               result.skipped > 0 ? fmt::format(", {} skipped (NaN or infinite)", result.skipped) : "",
+               result.peak);
   }
   if (fail_above >= 0 && !(result.all.relative_rmse <= fail_above)) {
-    throw Error(fmt::format("{} and {} differ: relative RMSE {:.6g} is above {:g}", a, b, result.all.relative_rmse,
-                            fail_above));
+    throw Error(fmt::format("{} and {} differ: relative RMSE {:.6g} is above {:g}", a, b,
+                            result.all.relative_rmse, fail_above));
   }
 }
 
@@ -88,16 +95,24 @@ void Diff::run() const {
 
 void add_diff(CLI::App& app) {
   auto diff = std::make_shared<Diff>();
-  CLI::App* command = app.add_subcommand("diff", "Measure how B differs from A over the sphere, also across parameterizations");
+  CLI::App* command = app.add_subcommand(
+      "diff", "Measure how B differs from A over the sphere, also across parameterizations");
   command->add_option("A", diff->a, "Reference map")->required();
   command->add_option("B", diff->b, "Map to compare")->required();
   command->add_option("--from-b", diff->from_b, "Parameterization of B, when --from is not its");
-  command->add_option("--filter", diff->filter, "How the coarser map is read: nearest, bilinear, bicubic, lanczos")
+  command
+      ->add_option("--filter", diff->filter,
+                   "How the coarser map is read: nearest, bilinear, bicubic, lanczos")
       ->capture_default_str();
-  command->add_option("--peak", diff->peak, "What PSNR is relative to. Default: 1, or A's maximum where that is above 1")
+  command
+      ->add_option("--peak", diff->peak,
+                   "What PSNR is relative to. Default: 1, or A's maximum where that is above 1")
       ->check(finite_number(0));
-  command->add_option("--heat", diff->heat, "Write a picture of the relative error (lat-long, colour scale 1e-5 to 1)");
-  command->add_option("--fail-above", diff->fail_above, "Exit with status 1 when the relative RMSE is above this")
+  command->add_option("--heat", diff->heat,
+                      "Write a picture of the relative error (lat-long, colour scale 1e-5 to 1)");
+  command
+      ->add_option("--fail-above", diff->fail_above,
+                   "Exit with status 1 when the relative RMSE is above this")
       ->check(finite_number(0));
   command->add_flag("--json", diff->json, "Machine-readable, on standard output");
   diff->read.add(*command);

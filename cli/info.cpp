@@ -1,5 +1,8 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <memory>
+
 #include <nlohmann/json.hpp>
 
 #include "command.h"
@@ -19,10 +22,13 @@ struct Info {
   void run() const;
 };
 
-ordered_json direction(const Vec3d& d) { return {d.x, d.y, d.z}; }
+ordered_json direction(const Vec3d& d) {
+  return {d.x, d.y, d.z};
+}
 
 int level_served(const MapFileInfo& info) {
-  return std::min(coarsest_level_served(info.border, info.chart.width), coarsest_level_served(info.border, info.chart.height));
+  return std::min(coarsest_level_served(info.border, info.chart.width),
+                  coarsest_level_served(info.border, info.chart.height));
 }
 
 ordered_json header_of(const std::string& path, const MapFileInfo& info) {
@@ -96,8 +102,9 @@ void print_header(const std::string& path, const MapFileInfo& info) {
   for (const io::PartInfo& part : info.image.parts) {
     std::string channels;
     for (const std::string& channel : part.channels) channels += (channels.empty() ? "" : " ") + channel;
-    fmt::print("  picture{:<10} {}×{}, {} of {}, compression {}\n", part.name.empty() ? "" : " " + printable(part.name),
-               part.width, part.height, printable(channels), name_of(part.type), part.compression);
+    fmt::print("  picture{:<10} {}×{}, {} of {}, compression {}\n",
+               part.name.empty() ? "" : " " + printable(part.name), part.width, part.height,
+               printable(channels), name_of(part.type), part.compression);
   }
   for (const std::string& note : info.image.notes) fmt::print("  note              {}\n", note);
   for (const auto& [key, value] : info.image.attributes) {
@@ -107,7 +114,8 @@ void print_header(const std::string& path, const MapFileInfo& info) {
     fmt::print("  parameterization  {} ({}), charts {}×{}×{}\n", info.shape->text(), info.reason,
                info.shape->parameterization.charts(), info.chart.width, info.chart.height);
     if (info.border > 0) {
-      fmt::print("  safety border     {} texels: serves mip levels 0 to {}\n", info.border, level_served(info));
+      fmt::print("  safety border     {} texels: serves mip levels 0 to {}\n", info.border,
+                 level_served(info));
     }
   } else {
     fmt::print("  parameterization  unknown: {}; name it with --from\n", info.reason);
@@ -129,13 +137,14 @@ void print_statistics(const MapStatistics& s) {
   const LuminanceStatistics& l = s.luminance;
   fmt::print("  luminance         {:.6g} … {:.6g}, mean {:.6g}, {:.1f} stops\n", l.minimum, l.maximum, l.mean,
              l.dynamic_range);
-  fmt::print("  percentiles       1 %: {:.4g}   50 %: {:.4g}   99 %: {:.4g}   99.9 %: {:.4g}\n", l.percentile_1,
-             l.percentile_50, l.percentile_99, l.percentile_99_9);
+  fmt::print("  percentiles       1 %: {:.4g}   50 %: {:.4g}   99 %: {:.4g}   99.9 %: {:.4g}\n",
+             l.percentile_1, l.percentile_50, l.percentile_99, l.percentile_99_9);
   if (!s.light) return;
   const BrightestLight& light = *s.light;
-  fmt::print("  brightest light   along {:.4f},{:.4f},{:.4f}: peak {:.6g}, {:.3g} sr, {:.1f} % of all light\n",
-             light.direction.x, light.direction.y, light.direction.z, light.peak, light.solid_angle,
-             100 * light.share);
+  fmt::print(
+      "  brightest light   along {:.4f},{:.4f},{:.4f}: peak {:.6g}, {:.3g} sr, {:.1f} % of all light\n",
+      light.direction.x, light.direction.y, light.direction.z, light.peak, light.solid_angle,
+      100 * light.share);
 }
 
 void Info::run() const {
@@ -143,7 +152,8 @@ void Info::run() const {
   ordered_json all = ordered_json::array();
   bool first = true;
   for (const std::string& path : files) {
-    MapFileInfo info = inspect_map(path, read.parse());
+    MapReader reader = read.open(path);
+    const MapFileInfo& info = reader.info();
     if (!json) {
       if (!first) fmt::print("\n");
       print_header(path, info);
@@ -151,21 +161,25 @@ void Info::run() const {
     first = false;
     ordered_json report = header_of(path, info);
     if (info.shape && !header) {
-      const MapStatistics statistics = measure(read.read(path).map, progress_monitor("info"));
+      const MapStatistics statistics = measure(reader.read(), progress_monitor("info"));
       end_progress();
       if (!json) print_statistics(statistics);
       report["statistics"] = statistics_of(statistics);
     }
     all.push_back(std::move(report));
   }
-  if (json) fmt::print("{}\n", (files.size() == 1 ? all[0] : all).dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  if (json)
+    fmt::print(
+        "{}\n",
+        (files.size() == 1 ? all[0] : all).dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 }  // namespace
 
 void add_info(CLI::App& app) {
   auto info = std::make_shared<Info>();
-  CLI::App* command = app.add_subcommand("info", "Tell what a file is: format, parameterization, luminance, brightest light");
+  CLI::App* command =
+      app.add_subcommand("info", "Tell what a file is: format, parameterization, luminance, brightest light");
   command->add_option("FILE", info->files, "Maps to read")->required();
   command->add_flag("--header", info->header, "Only what the header says; read no pixels");
   command->add_flag("--json", info->json, "Machine-readable, on standard output");

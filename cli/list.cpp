@@ -26,7 +26,8 @@ void list_layouts() {
 void list_parameters() {
   for (const std::string& name : sphere::parameterization_names()) {
     for (const auto& p : sphere::AnyParameterization::make(name).parameters()) {
-      fmt::print("{},{}=  {} ({:g} to {:g}, default {:g})\n", name, p.name, p.description, p.lowest, p.highest, p.value);
+      fmt::print("{},{}=  {} ({:g} to {:g}, default {:g})\n", name, p.name, p.description, p.lowest,
+                 p.highest, p.value);
     }
   }
 }
@@ -36,10 +37,22 @@ const std::map<std::string, std::function<void()>>& lists() {
       {"parameterizations", list_parameterizations},
       {"layouts", list_layouts},
       {"parameters", list_parameters},
-      {"conventions", [] { for (const auto& c : conventions()) fmt::print("{:<16} {}\n", c.name, c.description); }},
-      {"filters", [] { for (const char* name : {"auto", "nearest", "bilinear", "bicubic", "lanczos"}) fmt::print("{}\n", name); }},
-      {"formats", [] { for (const auto& name : io::writable_extensions()) fmt::print("{}\n", name); }},
-      {"maps", [] { for (const auto& name : synth::names()) fmt::print("{:<12} {}\n", name, synth::description(name)); }}};
+      {"conventions",
+       [] {
+         for (const auto& c : conventions()) fmt::print("{:<16} {}\n", c.name, c.description);
+       }},
+      {"filters",
+       [] {
+         for (const char* name : {"auto", "nearest", "bilinear", "bicubic", "lanczos"})
+           fmt::print("{}\n", name);
+       }},
+      {"formats",
+       [] {
+         for (const auto& name : io::writable_extensions()) fmt::print("{}\n", name);
+       }},
+      {"maps", [] {
+         for (const auto& name : synth::names()) fmt::print("{:<12} {}\n", name, synth::description(name));
+       }}};
   return all;
 }
 
@@ -50,7 +63,9 @@ void add_list(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "Names that other commands take");
   std::vector<std::string> names;
   for (const auto& [name, print] : lists()) names.push_back(name);
-  command->add_option("WHAT", *what, "conventions, filters, formats, layouts, maps, parameterizations, parameters")
+  command
+      ->add_option("WHAT", *what,
+                   "conventions, filters, formats, layouts, maps, parameterizations, parameters")
       ->capture_default_str();
   command->callback([what, names] {
     const auto found = lists().find(*what);

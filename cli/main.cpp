@@ -6,8 +6,9 @@
 #include <new>
 
 #include "command.h"
-#include "terminal.h"
+#include "progress.h"
 #include "version.h"
+#include "welkin/io/process.h"
 
 namespace {
 
@@ -15,7 +16,8 @@ using namespace welkin;
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
   return names;
 }
 
@@ -34,7 +36,8 @@ std::string explain_extras(const CLI::App& app, const std::string& what) {
   }
   const std::vector<std::string> commands = command_names(*command);
   for (const std::string& extra : app.remaining(true)) {
-    if (extra.size() > 1 && extra.front() == '-') return unknown_name("option", extra.substr(0, extra.find('=')), options);
+    if (extra.size() > 1 && extra.front() == '-')
+      return unknown_name("option", extra.substr(0, extra.find('=')), options);
     if (!commands.empty()) return unknown_name("command", extra, commands);
   }
   return what;
@@ -74,7 +77,8 @@ int run(int argc, char** argv) {
   });
 
   const std::vector<std::string> commands = command_names(app);
-  if (argc > 1 && argv[1][0] != '-' && std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
     throw cli::UsageError(unknown_name("command", argv[1], commands));
   }
   help->callback([&] {
@@ -82,7 +86,8 @@ int run(int argc, char** argv) {
     std::string before;
     for (const std::string& topic : topics) {
       const std::vector<std::string> names = command_names(*command);
-      if (std::find(names.begin(), names.end(), topic) == names.end()) throw cli::UsageError(unknown_name("command", topic, names));
+      if (std::find(names.begin(), names.end(), topic) == names.end())
+        throw cli::UsageError(unknown_name("command", topic, names));
       before += (before.empty() ? "" : " ") + command->get_name();
       command = command->get_subcommand(topic);
     }
@@ -116,8 +121,8 @@ int report(int status, const char* what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  cli::hold_standard_streams();
-  cli::remove_outputs_on_signals();
+  io::hold_standard_streams();
+  io::remove_outputs_on_signals();
   try {
     const int status = run(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

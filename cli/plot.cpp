@@ -23,7 +23,8 @@ void PlotDensity::run() const {
   std::vector<sphere::AnyParameterization> list;
   if (of.empty()) {
     if (!out.empty()) throw UsageError("plot density: name the parameterization to draw with --of");
-    for (const std::string& name : sphere::parameterization_names()) list.push_back(sphere::AnyParameterization::make(name));
+    for (const std::string& name : sphere::parameterization_names())
+      list.push_back(sphere::AnyParameterization::make(name));
   } else {
     list.push_back(parse_option("--of", [&] { return parse_map_shape(of).parameterization; }));
   }
@@ -36,20 +37,22 @@ void PlotDensity::run() const {
       io::write(out, {&part, 1});
     }
     if (!json && all.empty()) {
-      fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "solid angle / average", "min", "max", "ratio", "limit ratio");
+      fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "solid angle / average", "min", "max", "ratio",
+                 "limit ratio");
     }
-    all.push_back({{"name", p.spec()},
-                   {"charts", p.charts()},
-                   {"width", report.width},
-                   {"height", report.height},
-                   {"average", report.average},
-                   {"min", report.minimum},
-                   {"max", report.maximum},
-                   {"ratio", report.ratio},
-                   {"limit_ratio", report.unbounded ? ordered_json(nullptr) : ordered_json(report.limit_ratio)}});
+    all.push_back(
+        {{"name", p.spec()},
+         {"charts", p.charts()},
+         {"width", report.width},
+         {"height", report.height},
+         {"average", report.average},
+         {"min", report.minimum},
+         {"max", report.maximum},
+         {"ratio", report.ratio},
+         {"limit_ratio", report.unbounded ? ordered_json(nullptr) : ordered_json(report.limit_ratio)}});
     if (!json) {
-      fmt::print("{:<24} {:>10.4f} {:>10.4f} {:>10.4g} {:>12}\n", p.spec(), report.minimum, report.maximum, report.ratio,
-                 report.unbounded ? "unbounded" : fmt::format("{:.4f}", report.limit_ratio));
+      fmt::print("{:<24} {:>10.4f} {:>10.4f} {:>10.4g} {:>12}\n", p.spec(), report.minimum, report.maximum,
+                 report.ratio, report.unbounded ? "unbounded" : fmt::format("{:.4f}", report.limit_ratio));
     }
   }
   if (json) fmt::print("{}\n", (of.empty() ? all : all[0]).dump(2));
@@ -77,18 +80,23 @@ void add_plot(CLI::App& app) {
   plot->require_subcommand(1);
 
   auto density = std::make_shared<PlotDensity>();
-  CLI::App* command = plot->add_subcommand("density", "Solid angle of a texel over the average: picture, least, most, ratio");
+  CLI::App* command =
+      plot->add_subcommand("density", "Solid angle of a texel over the average: picture, least, most, ratio");
   command->add_option("OUT", density->out, "Picture to write; without it, only the numbers");
   command->add_option("--of", density->of, "Parameterization. Default: the numbers of all");
-  command->add_option("--size", density->size, "Texels across a chart")->check(CLI::Range(2, 16384))->capture_default_str();
+  command->add_option("--size", density->size, "Texels across a chart")
+      ->check(CLI::Range(2, 16384))
+      ->capture_default_str();
   command->add_flag("--json", density->json, "Machine-readable, on standard output");
   command->callback([density] { density->run(); });
 
   auto mips = std::make_shared<PlotMips>();
-  command = plot->add_subcommand("mips", "A map's pyramid twice: plain 2×2 averages above, weighted by solid angle below");
+  command = plot->add_subcommand(
+      "mips", "A map's pyramid twice: plain 2×2 averages above, weighted by solid angle below");
   command->add_option("IN", mips->in, "Map to read")->required();
   command->add_option("OUT", mips->out, "Picture to write")->required();
-  command->add_option("--exposure", mips->exposure, "Brighten the picture by this many stops")->check(finite_number());
+  command->add_option("--exposure", mips->exposure, "Brighten the picture by this many stops")
+      ->check(finite_number());
   mips->read.add(*command);
   command->callback([mips] { mips->run(); });
 }

@@ -23,7 +23,8 @@ struct Sample {
 
 Vec3d checked(const std::string& where, double x, double y, double z) {
   const double longest = std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
-  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || longest == 0) throw UsageError(where + " is not a direction");
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || longest == 0)
+    throw UsageError(where + " is not a direction");
   return {x / longest, y / longest, z / longest};
 }
 
@@ -72,12 +73,15 @@ void add_sample(CLI::App& app) {
   auto sample = std::make_shared<Sample>();
   CLI::App* command = app.add_subcommand("sample", "Print a map's radiance along directions, one line each");
   command->add_option("MAP", sample->map, "Map to read")->required();
-  command->add_option("--dir", sample->directions,
-                      "Directions x,y,z of any length (+Y is up). Without it: lines `x y z` from standard input")
+  command
+      ->add_option("--dir", sample->directions,
+                   "Directions x,y,z of any length (+Y is up). Without it: lines `x y z` from standard input")
       ->allow_extra_args();
-  command->add_option("--level", sample->level, "Pyramid level: 0 is the map, each next one has half the size")
+  command
+      ->add_option("--level", sample->level, "Pyramid level: 0 is the map, each next one has half the size")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--filter", sample->filter, "nearest, bilinear, bicubic, lanczos")->capture_default_str();
+  command->add_option("--filter", sample->filter, "nearest, bilinear, bicubic, lanczos")
+      ->capture_default_str();
   sample->read.add(*command);
   command->callback([sample] { sample->run(); });
 }

@@ -33,8 +33,9 @@ void Synth::run() const {
   RenderOptions render_options;
   render_options.samples = samples;
   if (!convention.empty()) {
-    render_options.orientation = orientation_for(
-        parse_option("--convention", [&] { return convention_from_name(convention); }), shape.parameterization);
+    render_options.orientation =
+        orientation_for(parse_option("--convention", [&] { return convention_from_name(convention); }),
+                        shape.parameterization);
   }
   render_options.monitor = progress_monitor("synth");
   const Map map = render(radiance, shape.parameterization, chart.width, chart.height, render_options);
@@ -51,18 +52,29 @@ void add_synth(CLI::App& app) {
   for (const std::string& name : synth::names()) names += (names.empty() ? "" : ", ") + name;
   command->add_option("NAME", synth->name, names + " (`welkin list maps` describes them)")->required();
   command->add_option("OUT", synth->out, "Map to write; its extension names the format")->required();
-  command->add_option("--to", synth->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")->capture_default_str();
-  command->add_option("--size", synth->size, "Size of a chart in texels: N across, or WxH. Default: 1024, faces 256");
-  command->add_option("--convention,--to-convention", synth->convention, "World of the output: three.js, blender…");
-  command->add_option("--samples", synth->samples, "Samples per texel, squared")->check(CLI::Range(1, 64))->capture_default_str();
+  command->add_option("--to", synth->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")
+      ->capture_default_str();
+  command->add_option("--size", synth->size,
+                      "Size of a chart in texels: N across, or WxH. Default: 1024, faces 256");
+  command->add_option("--convention,--to-convention", synth->convention,
+                      "World of the output: three.js, blender…");
+  command->add_option("--samples", synth->samples, "Samples per texel, squared")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   auto& o = synth->options;
   command->add_option("--seed", o.seed, "lamps: which ones")->check(finite_number(0))->capture_default_str();
-  command->add_option("--frequency", o.frequency, "checker: cells around; lines: meridians; zoneplate: cycles per radian at −Z; lamps: how many");
-  command->add_option("--angle", o.angle, "Degrees. sun, sky: the sun's diameter; lines: their width; lamps: their diameter");
+  command->add_option(
+      "--frequency", o.frequency,
+      "checker: cells around; lines: meridians; zoneplate: cycles per radian at −Z; lamps: how many");
+  command->add_option("--angle", o.angle,
+                      "Degrees. sun, sky: the sun's diameter; lines: their width; lamps: their diameter");
   command->add_option("--intensity", o.intensity, "sun: its radiance; lamps: their median; others: a factor");
-  command->add_option("--elevation", o.elevation, "sun, sky: height of the sun, degrees")->capture_default_str();
-  command->add_option("--azimuth", o.azimuth, "sun, sky: where the sun stands, degrees from +Z toward +X")->capture_default_str();
-  command->add_option("--background", o.background, "sun, lamps: radiance around them")->capture_default_str();
+  command->add_option("--elevation", o.elevation, "sun, sky: height of the sun, degrees")
+      ->capture_default_str();
+  command->add_option("--azimuth", o.azimuth, "sun, sky: where the sun stands, degrees from +Z toward +X")
+      ->capture_default_str();
+  command->add_option("--background", o.background, "sun, lamps: radiance around them")
+      ->capture_default_str();
   command->add_option("--turbidity", o.turbidity, "sky: 2 (clear) to 10 (haze)")->capture_default_str();
   command->add_option("--albedo", o.albedo, "sky: reflectance of the ground")->capture_default_str();
   synth->write.add(*command);

@@ -7,7 +7,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
 # 4 GB of address space is plenty for these maps, and shows who believes a header that promises more. (Sanitizers need far more.)
 limited=false
-if (ulimit -v 4000000 && "$welkin" list >/dev/null 2>&1); then
+if (ulimit -v 4000000 && "$welkin" list) >/dev/null 2>&1; then
   ulimit -v 4000000
   limited=true
 fi

@@ -5,8 +5,8 @@ namespace welkin {
 /// Instruction sets that some source files are compiled for besides the baseline.
 enum class InstructionSet { baseline, avx2 };
 
-/// The best set that this build has and this processor runs, unless WELKIN_INSTRUCTION_SET=baseline is in the environment
-/// (for tests and comparisons). Decided once.
+/// The best set that this build has and this processor runs, unless WELKIN_INSTRUCTION_SET=baseline is in the
+/// environment (for tests and comparisons). Decided once.
 InstructionSet instruction_set();
 
 }  // namespace welkin

@@ -21,8 +21,8 @@ class Cancelled : public Error {
   Cancelled() : Error("cancelled") {}
 };
 
-/// `unknown KIND 'NAME'; did you mean 'NEAREST'? (one of: a, b, c)`: the message for a name that no table has.
-/// The nearest is by edit distance, and is left out when nothing is near.
+/// `unknown KIND 'NAME'; did you mean 'NEAREST'? (one of: a, b, c)`: the message for a name that no table
+/// has. The nearest is by edit distance, and is left out when nothing is near.
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string> known);
 
 }  // namespace welkin

@@ -10,11 +10,12 @@
 
 namespace welkin {
 
-/// How long work reports back and can be stopped. Default: silent and never cancelled. Called from any thread.
+/// How work tells how far it is, and can be stopped. Default: silent and never cancelled. Called from any
+/// thread.
 struct Monitor {
   /// Told how much of the work is done, 0…1.
   std::function<void(double fraction)> progress;
-  /// Asked now and then; true makes the work throw Cancelled within a few milliseconds.
+  /// Asked now and then; true makes the work throw Cancelled before its next piece, a band of rows.
   std::function<bool()> cancelled;
 };
 

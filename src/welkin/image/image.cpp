@@ -16,7 +16,9 @@ constexpr std::size_t kReadablePastEnd = 64;
 
 }  // namespace
 
-void Image::Free::operator()(float* p) const { std::free(p); }
+void Image::Free::operator()(float* p) const {
+  std::free(p);
+}
 
 Image::Image(int width, int height, int channels) {
   if (width <= 0 || height <= 0 || channels <= 0) {

@@ -7,9 +7,9 @@
 
 namespace welkin {
 
-/// A window onto pixels that somebody else owns: rows of `width` texels of `channels` interleaved values, v down,
-/// origin top-left. `row_stride` counts values (not bytes) from one row to the next, so a view can be a part of a
-/// larger image.
+/// A window onto pixels that somebody else owns: rows of `width` texels of `channels` interleaved values, v
+/// down, origin top-left. `row_stride` counts values (not bytes) from one row to the next, so a view can be a
+/// part of a larger image.
 template <class T>
 struct ImageView {
   T* data = nullptr;
@@ -24,9 +24,7 @@ struct ImageView {
   /// The rectangle of `w`×`h` texels whose first texel is (x, y).
   ImageView part(int x, int y, int w, int h) const { return {at(x, y), w, h, channels, row_stride}; }
 
-  operator ImageView<const T>() const
-    requires(!std::is_const_v<T>)
-  {
+  operator ImageView<const T>() const requires(!std::is_const_v<T>) {
     return {data, width, height, channels, row_stride};
   }
 };

@@ -15,6 +15,9 @@
 
 #include "welkin/base/error.h"
 
+// Pixels are loaded as the file has them, little-endian.
+static_assert(std::endian::native == std::endian::little);
+
 namespace welkin::io::exr {
 namespace {
 

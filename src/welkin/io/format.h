@@ -33,8 +33,8 @@ Format jpeg_format();
 Format tiff_format();
 Format webp_format();
 
-/// Throws Error when the decoded floats of width×height×channels would pass options.max_bytes or a side is not in
-/// 1…2^20. Call it before any allocation.
+/// Throws Error when the decoded floats of width×height×channels would pass options.max_bytes or a side is
+/// not in 1…2^20. Call it before any allocation.
 void check_size(const Source& source, std::uint64_t width, std::uint64_t height, std::uint64_t channels);
 
 }  // namespace welkin::io

@@ -139,24 +139,56 @@ std::unique_ptr<Reader> open(const std::filesystem::path& path, const ReadOption
   return std::make_unique<FileReader>(std::move(file), std::move(reader));
 }
 
-WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
-                  const WriteOptions& options) {
-  assert(!parts.empty());
-  for ([[maybe_unused]] const WritePart& part : parts) {
-    assert(part.image.data != nullptr && part.image.width > 0 && part.image.height > 0);
-    assert(part.channels.size() == static_cast<std::size_t>(part.image.channels));
-  }
+namespace {
+
+/// Runs one step of writing a file; what goes wrong names the file.
+template <class Step>
+void for_file(const std::filesystem::path& path, const Step& step) {
   try {
-    const Format& format = format_for_writing(path);
-    OutputFile file(path);
-    const WriteReport report = format.write(file, parts, options);
-    file.commit();
-    return report;
+    step();
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
     throw Error(path.string() + ": " + error.what());
   }
+}
+
+}  // namespace
+
+WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
+                      const WriteOptions& options) {
+  WriteReport total;
+  std::vector<std::pair<std::filesystem::path, std::unique_ptr<OutputFile>>> written;
+  for (std::size_t i = 0; i < count; ++i) {
+    const WriteFile file = next(i);
+    assert(!file.parts.empty());
+    for ([[maybe_unused]] const WritePart& part : file.parts) {
+      assert(part.image.data != nullptr && part.image.width > 0 && part.image.height > 0);
+      assert(part.channels.size() == static_cast<std::size_t>(part.image.channels));
+    }
+    for_file(file.path, [&] {
+      const Format& format = format_for_writing(file.path);
+      written.emplace_back(file.path, std::make_unique<OutputFile>(file.path));
+      const WriteReport report = format.write(*written.back().second, file.parts, options);
+      total.above += report.above;
+      total.below += report.below;
+      total.not_finite += report.not_finite;
+    });
+  }
+  for (const auto& [path, file] : written) {
+    for_file(path, [&] { file->commit(); });
+  }
+  return total;
+}
+
+WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
+                  const WriteOptions& options) {
+  return write_set(
+      1,
+      [&](std::size_t) {
+        return WriteFile{path, {parts.begin(), parts.end()}};
+      },
+      options);
 }
 
 }  // namespace welkin::io

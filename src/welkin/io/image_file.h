@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,8 +23,8 @@ enum class PixelType { uint8, uint16, uint32, half, float32 };
 /// `uint8`, `uint16`, `uint32`, `half`, `float`.
 std::string_view name_of(PixelType type);
 
-/// The transfer function of stored colour values. Linear is radiance; sRGB is IEC 61966-2-1, made linear on reading.
-/// Alpha is always linear.
+/// The transfer function of stored colour values. Linear is radiance; sRGB is IEC 61966-2-1, made linear on
+/// reading. Alpha is always linear.
 enum class Colour { automatic, linear, srgb };
 
 /// One picture of a file: the only one in most formats, one of many in a multi-part EXR or a multi-page TIFF.
@@ -31,7 +32,8 @@ struct PartInfo {
   std::string name;  ///< EXR part name; empty where the format has none
   int width = 0;
   int height = 0;
-  std::vector<std::string> channels;  ///< in the order that reading them all gives: R G B A first, then others
+  std::vector<std::string>
+      channels;  ///< in the order that reading them all gives: R G B A first, then others
   PixelType type = PixelType::float32;
   std::string compression;  ///< `none`, `zip`, `rle`, `deflate`, `jpeg`…
 };
@@ -41,19 +43,21 @@ struct FileInfo {
   std::string format;  ///< `exr`, `hdr`, `pfm`, `png`, `jpeg`, `tiff`, `webp`
   std::vector<PartInfo> parts;
   Colour colour = Colour::linear;  ///< the transfer function that reading will undo
-  std::map<std::string, std::string> attributes;  ///< text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
+  std::map<std::string, std::string>
+      attributes;  ///< text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
   std::optional<std::string> envmap;  ///< EXR's standard `envmap` attribute: `latlong` or `cube`
-  std::vector<std::string> notes;     ///< what a person would like to know: tiles, data window, orientation…
+  std::vector<std::string> notes;  ///< what a person would like to know: tiles, data window, orientation…
   std::uint64_t bytes = 0;
 };
 
 struct ReadOptions {
-  Colour colour = Colour::automatic;  ///< automatic: 8- and 16-bit integer formats are sRGB, all others linear
+  Colour colour =
+      Colour::automatic;  ///< automatic: 8- and 16-bit integer formats are sRGB, all others linear
   std::uint64_t max_bytes = std::uint64_t{32} << 30;  ///< refuse images whose decoded floats would need more
 };
 
-/// An open image file. Headers are parsed and checked (against ReadOptions::max_bytes and against the file's own
-/// length where the format allows) when it is opened; pixels are decoded by `read`.
+/// An open image file. Headers are parsed and checked (against ReadOptions::max_bytes and against the file's
+/// own length where the format allows) when it is opened; pixels are decoded by `read`.
 ///
 /// Failures throw Error, `FILE: cause (byte offset or row where it helps)`.
 class Reader {
@@ -62,10 +66,10 @@ class Reader {
 
   const FileInfo& info() const { return info_; }
 
-  /// Decodes the part's channels numbered `channels` (indices into PartInfo::channels, one per channel of `out`) into
-  /// `out`, which has the part's width and height and any row stride. Colour is linear afterwards. Non-finite and
-  /// negative values are kept. EXR data windows are placed inside the display window; texels outside it are 0.
-  /// Uses the calling thread and TBB's workers.
+  /// Decodes the part's channels numbered `channels` (indices into PartInfo::channels, one per channel of
+  /// `out`) into `out`, which has the part's width and height and any row stride. Colour is linear
+  /// afterwards. Non-finite and negative values are kept. EXR data windows are placed inside the display
+  /// window; texels outside it are 0. Uses the calling thread and TBB's workers.
   virtual void read(std::size_t part, std::span<const int> channels, ImageView<float> out) = 0;
 
  protected:
@@ -76,7 +80,8 @@ class Reader {
 std::unique_ptr<Reader> open(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same from memory, which must outlive the reader; `name` stands for the path in messages.
-std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name, const ReadOptions& options = {});
+std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name,
+                             const ReadOptions& options = {});
 
 /// A picture to be written, its channels named: `R G B`, `R G B A`, `Y`…
 struct WritePart {
@@ -86,12 +91,12 @@ struct WritePart {
 };
 
 struct WriteOptions {
-  std::optional<PixelType> type;         ///< default: the format's best (float for EXR, PFM, TIFF; uint16 for PNG…)
-  Colour colour = Colour::automatic;     ///< automatic: sRGB into integer formats, linear into float ones
-  std::string compression;               ///< empty: the format's default; `none`, `zip`, `zips`, `rle`, `piz`, `dwaa`…
-  int quality = 95;                      ///< of lossy formats, 1…100
+  std::optional<PixelType> type;  ///< default: the format's best (float for EXR, PFM, TIFF; uint16 for PNG…)
+  Colour colour = Colour::automatic;  ///< automatic: sRGB into integer formats, linear into float ones
+  std::string compression;  ///< empty: the format's default; `none`, `zip`, `zips`, `rle`, `piz`, `dwaa`…
+  int quality = 95;         ///< of lossy formats, 1…100
   std::map<std::string, std::string> attributes;  ///< text metadata, in formats that carry it
-  std::optional<std::string> envmap;     ///< EXR's standard `envmap` attribute
+  std::optional<std::string> envmap;              ///< EXR's standard `envmap` attribute
 };
 
 /// What writing lost, for the caller to report.
@@ -101,9 +106,21 @@ struct WriteReport {
   std::uint64_t not_finite = 0;  ///< NaN or infinity in a format that has neither
 };
 
-/// Writes to a temporary file beside `path`, then renames it: on any failure nothing is left and an older file of
-/// that name stays. The format follows the name's extension. More than one part: EXR and TIFF only.
-WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts, const WriteOptions& options = {});
+/// Writes to a temporary file beside `path`, then renames it: on any failure nothing is left and an older
+/// file of that name stays. The format follows the name's extension. More than one part: EXR and TIFF only.
+WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
+                  const WriteOptions& options = {});
+
+/// A file of a set.
+struct WriteFile {
+  std::filesystem::path path;
+  std::vector<WritePart> parts;
+};
+
+/// The same for files that belong together, as the faces of a cube: they appear only when all are written.
+/// `next(i)` gives each of `count` files when its turn comes; what it refers to may be gone at the next call.
+WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
+                      const WriteOptions& options = {});
 
 /// Extensions that can be written, without dots: `exr hdr pfm png jpg jpeg tif tiff webp`.
 std::vector<std::string> writable_extensions();

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -17,6 +18,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/output_file.h"
+#include "welkin/io/process.h"
 
 namespace welkin::io {
 namespace {
@@ -301,6 +303,32 @@ void remove_unfinished_outputs() noexcept {
     if (slot.state.load() == kActive && slot.process == process) ::unlink(slot.path);
   }
   errno = saved;
+}
+
+bool standard_error_is_terminal() {
+  return isatty(STDERR_FILENO) != 0;
+}
+
+void hold_standard_streams() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+    // The lowest free number is taken: the closed one's, as those below are open by now.
+    if (fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+void remove_outputs_on_signals() {
+  ::signal(SIGXFSZ, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = [](int signal) {
+    remove_unfinished_outputs();
+    _exit(128 + signal);
+  };
+  for (const int each : {SIGINT, SIGTERM, SIGHUP}) {
+    // A signal that the caller ignores (nohup) stays ignored.
+    struct sigaction before {};
+    sigaction(each, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(each, &action, nullptr);
+  }
 }
 
 }  // namespace welkin::io

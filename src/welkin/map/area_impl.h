@@ -3,8 +3,10 @@
 #include <xsimd/xsimd.hpp>
 
 #include "welkin/map/area.h"
+#include "welkin/map/fetch_impl.h"
 
-/// Included by one source file per instruction set; see fetch_impl.h for `Wide`, `Four` and the reason for them.
+/// Included by one source file per instruction set; see fetch_impl.h for `Wide`, `Four` and the reason for
+/// them.
 namespace welkin {
 
 template <class Wide, class Four, int C>
@@ -39,7 +41,8 @@ struct AreaMeanOf {
     alignas(64) float ramp[kSize];
     for (int i = 0; i < kSize; ++i) ramp[i] = static_cast<float>(i);
     const Pack steps = Pack::load_aligned(ramp);
-    for (std::size_t k = 0; k < count; ++k) mean(level, areas[k], steps, out + k * static_cast<std::size_t>(n));
+    for (std::size_t k = 0; k < count; ++k)
+      mean(level, areas[k], steps, out + k * static_cast<std::size_t>(n));
   }
 
   static void mean(const LevelView& level, const Parallelogram& area, const Pack& steps, float* out) {
@@ -54,7 +57,8 @@ struct AreaMeanOf {
     const float inverse = 1.0f / positive(determinant);
     const float extent_x = 0.5f * inverse * (positive(area.down[1]) + positive(area.across[1])) + 1.0f;
     const float extent_y = 0.5f * inverse * (positive(area.down[0]) + positive(area.across[0])) + 1.0f;
-    const int first_row = round_down(area.y - extent_y - 0.5f) + 1, last_row = round_down(area.y + extent_y - 0.5f);
+    const int first_row = round_down(area.y - extent_y - 0.5f) + 1,
+              last_row = round_down(area.y + extent_y - 0.5f);
 
     for (int c = 0; c < n; c += 4) Value(0.0f).store_unaligned(out + c);
     Value sum(0.0f);
@@ -111,10 +115,14 @@ struct AreaMeanOf {
 template <class Wide, class Four>
 AreaMean area_mean_of(int channels) {
   switch (channels) {
-    case 1: return &AreaMeanOf<Wide, Four, 1>::run;
-    case 3: return &AreaMeanOf<Wide, Four, 3>::run;
-    case 4: return &AreaMeanOf<Wide, Four, 4>::run;
-    default: return &AreaMeanOf<Wide, Four, 0>::run;
+    case 1:
+      return &AreaMeanOf<Wide, Four, 1>::run;
+    case 3:
+      return &AreaMeanOf<Wide, Four, 3>::run;
+    case 4:
+      return &AreaMeanOf<Wide, Four, 4>::run;
+    default:
+      return &AreaMeanOf<Wide, Four, 0>::run;
   }
 }
 

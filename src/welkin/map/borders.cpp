@@ -30,7 +30,8 @@ class RowMask {
   }
   void find_valid(const AnyParameterization& p, const Level& level, int chart, int row) {
     std::fill(v_.begin(), v_.end(), (static_cast<float>(row) + 0.5f) / static_cast<float>(level.height()));
-    p.kernels().valid(p.self(), chart, u_.data(), v_.data(), mask_.data(), static_cast<std::size_t>(level.width()));
+    p.kernels().valid(p.self(), chart, u_.data(), v_.data(), mask_.data(),
+                      static_cast<std::size_t>(level.width()));
   }
   bool valid(int x) const { return mask_[static_cast<std::size_t>(x)] > 0; }
 
@@ -137,7 +138,8 @@ Fill first_value(const AnyParameterization& p, const Level& level, const Texel& 
   return Fill::interpolated;
 }
 
-/// Later passes: the whole Catmull–Rom kernel, borders included, held to the range of the four nearest texels.
+/// Later passes: the whole Catmull–Rom kernel, borders included, held to the range of the four nearest
+/// texels.
 void later_value(const AnyParameterization& p, const Level& level, const Texel& t, float* out) {
   const auto place = p.from_sphere(direction_of(p, level, t));
   const int chart = static_cast<int>(place.chart);
@@ -163,10 +165,11 @@ void later_value(const AnyParameterization& p, const Level& level, const Texel& 
   }
 }
 
-/// Texels without a value take the mean of their neighbours that have one, ring by ring. Texels inside a chart that are
-/// neither valid nor in `known` have none and get none.
+/// Texels without a value take the mean of their neighbours that have one, ring by ring. Texels inside a
+/// chart that are neither valid nor in `known` have none and get none.
 void spread(const AnyParameterization& p, Level& level, bool whole, const std::vector<Texel>& known,
             std::vector<Texel> missing) {
+  if (missing.empty()) return;
   const int channels = level.channels(), width = level.width(), height = level.height();
   std::vector<std::uint8_t> unknown;
   const std::ptrdiff_t stride = width + 2 * kBorder;
@@ -174,7 +177,7 @@ void spread(const AnyParameterization& p, Level& level, bool whole, const std::v
     return static_cast<std::size_t>(((chart * (height + 2 * kBorder)) + y + kBorder) * stride + x + kBorder);
   };
   unknown.resize(index(level.charts() - 1, width + kBorder - 1, height + kBorder - 1) + 1);
-  if (!whole && !missing.empty()) {
+  if (!whole) {
     RowMask row(width);
     for (int chart = 0; chart < level.charts(); ++chart) {
       for (int y = 0; y < height; ++y) {
@@ -212,7 +215,8 @@ void spread(const AnyParameterization& p, Level& level, bool whole, const std::v
     if (now.empty()) break;
     for (std::size_t i = 0; i < now.size(); ++i) {
       const Texel& t = now[i];
-      std::copy_n(values.data() + i * static_cast<std::size_t>(channels), channels, level.chart(t.chart).at(t.x, t.y));
+      std::copy_n(values.data() + i * static_cast<std::size_t>(channels), channels,
+                  level.chart(t.chart).at(t.x, t.y));
       unknown[index(t.chart, t.x, t.y)] = 0;
     }
     missing = std::move(later);
@@ -242,7 +246,9 @@ void fill_borders(const AnyParameterization& p, Level& level) {
                   level.chart(texels[i].chart).at(texels[i].x, texels[i].y));
     }
   };
-  for_all([&](std::size_t i) { fills[i] = first_value(p, level, texels[i], whole, values.data() + i * channels); });
+  for_all([&](std::size_t i) {
+    fills[i] = first_value(p, level, texels[i], whole, values.data() + i * channels);
+  });
   scatter();
   std::vector<Texel> known, missing;
   bool any_interpolated = false;
@@ -252,7 +258,8 @@ void fill_borders(const AnyParameterization& p, Level& level) {
   }
   spread(p, level, whole, known, std::move(missing));
   if (!any_interpolated) return;
-  // The first of these reads the bilinear values of the first pass beside an edge, the second what it has put there.
+  // The first of these reads the bilinear values of the first pass beside an edge, the second what it has put
+  // there.
   for (int pass = 0; pass < 2; ++pass) {
     for_all([&](std::size_t i) {
       if (fills[i] == Fill::interpolated) later_value(p, level, texels[i], values.data() + i * channels);

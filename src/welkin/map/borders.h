@@ -4,15 +4,18 @@
 
 namespace welkin {
 
-/// Fills every chart's border, and the texels inside a chart that are no place of the map (the corners of a disc) as far
-/// as a kernel reaches over the rim. This is the only function that knows what lies past a chart's edge.
+/// Fills every chart's border, and the texels inside a chart that are no place of the map (the corners of a
+/// disc) as far as a kernel reaches over the rim. This is the only function that knows what lies past a
+/// chart's edge.
 ///
-/// Each such texel lies, by the chart's extended domain, in some direction. It takes the value that the map has there:
-/// the texel itself where that direction is a texel centre of another chart (lat-long, octahedra), else the Catmull–Rom
-/// interpolation of that chart (cubes, discs). Where the map shows nothing (behind a hemisphere) it takes the mean of its
-/// neighbours that do, ring by ring.
+/// Each such texel lies, by the chart's extended domain, in some direction. It takes the value that the map
+/// has there: the texel itself where that direction is a texel centre of another chart (lat-long, octahedra),
+/// else the Catmull–Rom interpolation of that chart (cubes, discs). Where the map shows nothing (behind a
+/// hemisphere) it takes the mean of its neighbours that do, ring by ring.
 void fill_borders(const sphere::AnyParameterization& parameterization, Level& level);
 
-inline void fill_borders(Map& map) { fill_borders(map.parameterization, map.level); }
+inline void fill_borders(Map& map) {
+  fill_borders(map.parameterization, map.level);
+}
 
 }  // namespace welkin

@@ -94,22 +94,6 @@ std::vector<ChannelPair> common_channels(const Map& a, const Map& b) {
   return pairs;
 }
 
-Fetch fetch_of(Filter filter, int channels) {
-  const FetchKernels kernels = fetch_kernels(channels);
-  switch (filter) {
-    case Filter::nearest:
-      return kernels.nearest;
-    case Filter::bilinear:
-      return kernels.bilinear;
-    case Filter::lanczos:
-      return kernels.lanczos3.held;
-    case Filter::automatic:
-    case Filter::bicubic:
-      break;
-  }
-  return kernels.bicubic.held;
-}
-
 double ratio(double a, double b) {
   return a == 0 ? 0 : b > 0 ? a / b : kInfinity;
 }
@@ -125,7 +109,7 @@ class Comparer {
         grid_(grid_is_a_ ? a : b),
         other_(grid_is_a_ ? b : a),
         to_other_(other_.orientation * transpose(grid_.orientation)),
-        fetch_(fetch_of(options.filter, other_.channels())),
+        fetch_(fetch_for(options.filter, false, other_.channels())),
         other_level_(view_of(other_.level)),
         bands_(grid_.charts() * grid_.height()) {}
 

@@ -1,7 +1,6 @@
 #include "welkin/map/fetch.h"
 
 #include "welkin/base/cpu.h"
-#include "welkin/map/area.h"
 
 namespace welkin {
 
@@ -18,11 +17,21 @@ FetchKernels fetch_kernels(int channels) {
   return fetch_kernels_baseline(channels);
 }
 
-AreaMean area_mean(int channels) {
-#ifdef WELKIN_HAS_AVX2
-  if (instruction_set() == InstructionSet::avx2) return area_mean_avx2(channels);
-#endif
-  return area_mean_baseline(channels);
+Fetch fetch_for(Filter filter, bool allow_ringing, int channels) {
+  const FetchKernels kernels = fetch_kernels(channels);
+  const auto choose = [&](const RingingFetch& kernel) { return allow_ringing ? kernel.plain : kernel.held; };
+  switch (filter) {
+    case Filter::nearest:
+      return kernels.nearest;
+    case Filter::bilinear:
+      return kernels.bilinear;
+    case Filter::lanczos:
+      return choose(kernels.lanczos3);
+    case Filter::automatic:
+    case Filter::bicubic:
+      break;
+  }
+  return choose(kernels.bicubic);
 }
 
 }  // namespace welkin

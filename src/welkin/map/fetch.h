@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "welkin/map/filter.h"
 #include "welkin/map/map.h"
 
 /// Reading texels of a level at places (chart, u, v), many at a time. One source file per instruction set.
@@ -20,14 +21,16 @@ struct LevelView {
 
 LevelView view_of(const Level& level);
 
-/// out[i·channels…] = the filtered texels at (chart[i], u[i], v[i]), i < count. Arrays follow sphere::kLanes: values up to
-/// padded(count) are read, and `out` has room for padded(count)·channels + 8 values. Places are clamped to within half a
-/// texel outside the chart, so a bad one (NaN too) reads some texel of the map and no other memory.
+/// out[i·channels…] = the filtered texels at (chart[i], u[i], v[i]), i < count. Arrays follow sphere::kLanes:
+/// values up to padded(count) are read, and `out` has room for padded(count)·channels + 8 values. Places are
+/// clamped to within half a texel outside the chart, so a bad one (NaN too) reads some texel of the map and
+/// no other memory.
 using Fetch = void (*)(const LevelView& level, const float* chart, const float* u, const float* v, float* out,
                        std::size_t count);
 
-/// A kernel with negative weights, plain and held: a held result lies at most half the range of the inner 4×4 texels beyond that
-/// range, and never below half the lowest of them, so positive radiance stays positive beside a bright light.
+/// A kernel with negative weights, plain and held: a held result lies at most half the range of the inner 4×4
+/// texels beyond that range, and never below half the lowest of them, so positive radiance stays positive
+/// beside a bright light.
 struct RingingFetch {
   Fetch plain;
   Fetch held;
@@ -48,5 +51,9 @@ FetchKernels fetch_kernels_avx2(int channels);
 
 /// For the best instruction set of this processor.
 FetchKernels fetch_kernels(int channels);
+
+/// The kernel of a filter for single look-ups, where there is no area to average over: `automatic` counts as
+/// `bicubic`.
+Fetch fetch_for(Filter filter, bool allow_ringing, int channels);
 
 }  // namespace welkin

@@ -1,15 +1,25 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <xsimd/xsimd.hpp>
 
 #include "welkin/map/fetch.h"
 #include "welkin/sphere/kernels.h"
 
-/// Included by one source file per instruction set; everything carries its architecture in its template arguments, for
-/// the reason given in sphere/kernels_impl.h. `Wide` computes places and weights, a pack of samples at a time; `Four` holds
-/// four neighbouring values of one texel row, so one load brings all channels of a texel.
+/// Included by one source file per instruction set; everything carries its architecture in its template
+/// arguments, for the reason given in sphere/kernels_impl.h. `Wide` computes places and weights, a pack of
+/// samples at a time; `Four` holds four neighbouring values of one texel row, so one load brings all channels
+/// of a texel.
 namespace welkin {
+
+/// Four lanes for the baseline: the default instruction set where it has four, as SSE2 and NEON do, else
+/// SSE2.
+#ifdef __SSE2__
+using BaselineFour = std::conditional_t<xsimd::batch<float>::size == 4, xsimd::default_arch, xsimd::sse2>;
+#else
+using BaselineFour = xsimd::default_arch;
+#endif
 
 template <class Wide>
 inline constexpr std::size_t kPackSize = xsimd::batch<float, Wide>::size;
@@ -27,20 +37,21 @@ struct Places {
   Pack fx, fy;
 
   Places(const LevelView& level, const float* charts, const float* us, const float* vs, float offset) {
-    // max(x, low) takes `low` when x is NaN, so every place stays inside the border.
+    // NaN becomes the lowest place, so every one stays inside the border.
     const auto place = [offset](const float* from, int size, Pack& fraction, std::int32_t* to) {
       const Pack extent(static_cast<float>(size));
       Pack x = xsimd::fma(Pack::load_unaligned(from), extent, Pack(-offset));
-      x = xsimd::min(xsimd::max(x, Pack(-1.0f)), extent - Pack(1.0f / 256));
+      x = xsimd::select(x >= Pack(-1.0f), x, Pack(-1.0f));
+      x = xsimd::min(x, extent - Pack(1.0f / 256));
       const Pack whole = xsimd::floor(x);
       fraction = x - whole;
       xsimd::to_int(whole).store_unaligned(to);
     };
     place(us, level.width, fx, x);
     place(vs, level.height, fy, y);
-    const Pack c = xsimd::min(xsimd::max(Pack::load_unaligned(charts), Pack(0.0f)),
-                              Pack(static_cast<float>(level.charts - 1)));
-    xsimd::to_int(c).store_unaligned(chart);
+    const Pack c = Pack::load_unaligned(charts);
+    const Pack last(static_cast<float>(level.charts - 1));
+    xsimd::to_int(xsimd::min(xsimd::select(c >= Pack(0.0f), c, Pack(0.0f)), last)).store_unaligned(chart);
   }
 
   template <int C>
@@ -50,7 +61,7 @@ struct Places {
   }
 };
 
-/// Calls body(sample, texel pointer, channel offset) for every sample of a pack and every four channels.
+/// The fetch kernels for C channels, or for any number (C = 0), four at a time.
 template <class Wide, class Four, int C>
 struct FetchOf {
   using Pack = xsimd::batch<float, Wide>;
@@ -113,8 +124,9 @@ struct FetchOf {
     }
   };
 
-  /// sinc(t)·sinc(t/A) for the 2A texels around a place, divided by their sum (C. Duchon, "Lanczos filtering in one and two
-  /// dimensions", 1979). sin(π(f−k)) = ±sin πf, and sin(π(f−k)/A) follows by the addition theorem.
+  /// sinc(t)·sinc(t/A) for the 2A texels around a place, divided by their sum (C. Duchon, "Lanczos filtering
+  /// in one and two dimensions", 1979). sin(π(f−k)) = ±sin πf, and sin(π(f−k)/A) follows by the addition
+  /// theorem.
   template <int A>
   struct Lanczos {
     static_assert(A == 3 || A == 4);
@@ -143,8 +155,8 @@ struct FetchOf {
     }
   };
 
-  /// Holds an interpolated value near the range [lowest, highest] of the texels around it: half a range beyond on
-  /// either side, and never below half the lowest, so positive radiance stays positive.
+  /// Holds an interpolated value near the range [lowest, highest] of the texels around it: half a range
+  /// beyond on either side, and never below half the lowest, so positive radiance stays positive.
   static Value hold(const Value& value, const Value& lowest, const Value& highest) {
     const Value half(0.5f);
     const Value margin = half * (highest - lowest);
@@ -155,8 +167,8 @@ struct FetchOf {
 
   /// Separable kernel over kTaps × kTaps texels; with `kHold`, held near the range of the inner 4×4 texels.
   template <class Kernel, bool kHold>
-  static void separable(const LevelView& level, const float* chart, const float* u, const float* v, float* out,
-                        std::size_t count) {
+  static void separable(const LevelView& level, const float* chart, const float* u, const float* v,
+                        float* out, std::size_t count) {
     constexpr int kTaps = Kernel::kTaps, kBefore = Kernel::kBefore;
     constexpr int kInner = (kTaps - 4) / 2;
     const int n = channels(level);
@@ -206,10 +218,14 @@ template <class Wide, class Four>
 struct FetchTable {
   static FetchKernels of(int channels) {
     switch (channels) {
-      case 1: return FetchOf<Wide, Four, 1>::table();
-      case 3: return FetchOf<Wide, Four, 3>::table();
-      case 4: return FetchOf<Wide, Four, 4>::table();
-      default: return FetchOf<Wide, Four, 0>::table();
+      case 1:
+        return FetchOf<Wide, Four, 1>::table();
+      case 3:
+        return FetchOf<Wide, Four, 3>::table();
+      case 4:
+        return FetchOf<Wide, Four, 4>::table();
+      default:
+        return FetchOf<Wide, Four, 0>::table();
     }
   }
 };

@@ -28,40 +28,58 @@ std::vector<Layout> cube_layouts() {
   //   .  +Y  .   .
   //  +X  +Z  −X  −Z
   //   .  −Y  .   .
-  list.push_back({"hcross", LayoutKind::picture, 4, 3,
+  list.push_back({"hcross",
+                  LayoutKind::picture,
+                  4,
+                  3,
                   {picture_of(py, 1, 0), picture_of(px, 0, 1), picture_of(pz, 1, 1), picture_of(nx, 2, 1),
                    picture_of(nz, 3, 1), picture_of(ny, 1, 2)}});
   //   .  +Y  .
   //  +X  +Z  −X
   //   .  −Y  .
   //   .  −Z  .     upside down
-  list.push_back({"vcross", LayoutKind::picture, 3, 4,
+  list.push_back({"vcross",
+                  LayoutKind::picture,
+                  3,
+                  4,
                   {picture_of(py, 1, 0), picture_of(px, 0, 1), picture_of(pz, 1, 1), picture_of(nx, 2, 1),
                    picture_of(ny, 1, 2), picture_of(nz, 1, 3, 2)}});
   // The horizontal cross turned a quarter clockwise, its back joined to the top.
   //    .    left   .    .
   //  bottom front top  back
   //    .    right  .    .
-  list.push_back({"flat", LayoutKind::picture, 4, 3,
-                  {picture_of(px, 1, 0, 1), picture_of(ny, 0, 1, 1), picture_of(pz, 1, 1, 1), picture_of(py, 2, 1, 1),
-                   picture_of(nz, 3, 1, 3), picture_of(nx, 1, 2, 1)}});
+  list.push_back({"flat",
+                  LayoutKind::picture,
+                  4,
+                  3,
+                  {picture_of(px, 1, 0, 1), picture_of(ny, 0, 1, 1), picture_of(pz, 1, 1, 1),
+                   picture_of(py, 2, 1, 1), picture_of(nz, 3, 1, 3), picture_of(nx, 1, 2, 1)}});
   list.push_back(line(6, 1, LayoutKind::picture, true));
   list.back().name = "hstrip";
   list.push_back(line(1, 6, LayoutKind::picture, true));
   list.back().name = "vstrip";
   //  +X  −X  +Y
   //  −Y  +Z  −Z
-  list.push_back({"3x2", LayoutKind::picture, 3, 2,
+  list.push_back({"3x2",
+                  LayoutKind::picture,
+                  3,
+                  2,
                   {picture_of(px, 0, 0), picture_of(nx, 1, 0), picture_of(py, 2, 0), picture_of(ny, 0, 1),
                    picture_of(pz, 1, 1), picture_of(nz, 2, 1)}});
   // Two bands of three joined faces: left front right; bottom back top, these on their side.
-  list.push_back({"bands", LayoutKind::picture, 3, 2,
+  list.push_back({"bands",
+                  LayoutKind::picture,
+                  3,
+                  2,
                   {picture_of(px, 0, 0), picture_of(pz, 1, 0), picture_of(nx, 2, 0), picture_of(ny, 0, 1, 3),
                    picture_of(nz, 1, 1, 1), picture_of(py, 2, 1, 3)}});
   // The strip of EXR files with `envmap = cube` (ImfEnvmap.h).
-  list.push_back({"openexr", LayoutKind::picture, 1, 6,
-                  {picture_of(px, 0, 0), picture_of(nx, 0, 1), picture_of(py, 0, 2, 2), picture_of(ny, 0, 3, 2),
-                   picture_of(pz, 0, 4), picture_of(nz, 0, 5)}});
+  list.push_back({"openexr",
+                  LayoutKind::picture,
+                  1,
+                  6,
+                  {picture_of(px, 0, 0), picture_of(nx, 0, 1), picture_of(py, 0, 2, 2),
+                   picture_of(ny, 0, 3, 2), picture_of(pz, 0, 4), picture_of(nz, 0, 5)}});
   list.push_back(line(6, 1, LayoutKind::files, true));
   list.back().name = "faces";
   list.push_back(line(6, 1, LayoutKind::layers, false));
@@ -73,7 +91,8 @@ std::vector<Layout> cube_layouts() {
 std::vector<Layout> plain_layouts(int charts, int columns) {
   const auto grid = [charts](std::string name, LayoutKind kind, int across) {
     Layout layout{std::move(name), kind, across, (charts + across - 1) / across, {}};
-    for (int chart = 0; chart < charts; ++chart) layout.cells.push_back({chart, chart % across, chart / across, 0, false});
+    for (int chart = 0; chart < charts; ++chart)
+      layout.cells.push_back({chart, chart % across, chart / across, 0, false});
     return layout;
   };
   if (charts == 1) return {grid("", LayoutKind::picture, 1)};
@@ -108,17 +127,26 @@ std::vector<std::string> split(std::string_view text, char separator) {
 
 /// Where the texel (x, y) of a cell's picture lies in its chart.
 struct CellMapping {
-  std::ptrdiff_t start = 0, step_x = 0, step_y = 0;  // values of the chart's view: first texel, and steps of the picture
+  std::ptrdiff_t start = 0, step_x = 0,
+                 step_y = 0;  // values of the chart's view: first texel, and steps of the picture
 
   CellMapping(const LayoutCell& c, int width, int height, std::ptrdiff_t row, std::ptrdiff_t texel) {
     // A picture turned clockwise by one quarter shows at (x, y) what was at (y, h − 1 − x).
     const std::ptrdiff_t right = width - 1, bottom = height - 1;
     std::ptrdiff_t x = 0, y = 0, xx = 0, xy = 0, yx = 0, yy = 0;  // chart x = x + xx·px + xy·py
     switch (c.quarter_turns & 3) {
-      case 0: xx = 1, yy = 1; break;
-      case 1: xy = 1, yx = -1, y = bottom; break;
-      case 2: xx = -1, yy = -1, x = right, y = bottom; break;
-      default: xy = -1, yx = 1, x = right; break;
+      case 0:
+        xx = 1, yy = 1;
+        break;
+      case 1:
+        xy = 1, yx = -1, y = bottom;
+        break;
+      case 2:
+        xx = -1, yy = -1, x = right, y = bottom;
+        break;
+      default:
+        xy = -1, yx = 1, x = right;
+        break;
     }
     if (c.mirrored) {
       x = right - x;
@@ -135,20 +163,27 @@ struct CellMapping {
 
 const std::vector<Layout>& layouts_of(const sphere::AnyParameterization& p) {
   static const std::vector<Layout> cube = cube_layouts();
-  static const std::vector<Layout> one = plain_layouts(1, 1), two = plain_layouts(2, 2), eight = plain_layouts(8, 4),
-                                   twelve = plain_layouts(12, 4);
+  static const std::vector<Layout> one = plain_layouts(1, 1), two = plain_layouts(2, 2),
+                                   eight = plain_layouts(8, 4), twelve = plain_layouts(12, 4);
   static const std::vector<Layout> openexr_cube = [] {
     std::vector<Layout> list = cube;
-    std::stable_partition(list.begin(), list.end(), [](const Layout& layout) { return layout.name == "openexr"; });
+    std::stable_partition(list.begin(), list.end(),
+                          [](const Layout& layout) { return layout.name == "openexr"; });
     return list;
   }();
   if (p.name() == "openexr-cube") return openexr_cube;
   switch (p.charts()) {
-    case 1: return one;
-    case 2: return two;
-    case 6: return cube;
-    case 8: return eight;
-    default: assert(p.charts() == 12); return twelve;
+    case 1:
+      return one;
+    case 2:
+      return two;
+    case 6:
+      return cube;
+    case 8:
+      return eight;
+    default:
+      assert(p.charts() == 12);
+      return twelve;
   }
 }
 
@@ -181,25 +216,21 @@ MapShape parse_map_shape(std::string_view text) {
     if (!layout.name.empty()) names.push_back(layout.name);
   }
   if (names.empty()) {
-    throw Error(parameterization.name() + " is a single picture: it takes no layout, but ':" + std::string(wanted) +
-                "' was given");
+    throw Error(parameterization.name() +
+                " is a single picture: it takes no layout, but ':" + std::string(wanted) + "' was given");
   }
   throw Error(unknown_name("layout of " + parameterization.name(), wanted, names));
 }
 
 MapShape for_chart_size(const MapShape& shape, ChartSize size) {
-  const std::vector<sphere::Parameter> parameters = shape.parameterization.parameters();
-  const auto sized = [](const sphere::Parameter& each) { return each.name == "width" || each.name == "height"; };
-  if (!std::any_of(parameters.begin(), parameters.end(), sized)) return shape;
-  return {sphere::AnyParameterization::make(shape.parameterization.name() + ",width=" + std::to_string(size.width) +
-                                            ",height=" + std::to_string(size.height)),
-          shape.layout};
+  return {shape.parameterization.at_size(size.width, size.height), shape.layout};
 }
 
 Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& p) {
   if (p.charts() != 6 || layout.kind == LayoutKind::layers) return layout;
   Layout changed = layout;
-  const bool adjoining = layout.name == "hcross" || layout.name == "vcross" || layout.name == "flat" || layout.name == "bands";
+  const bool adjoining =
+      layout.name == "hcross" || layout.name == "vcross" || layout.name == "flat" || layout.name == "bands";
   for (LayoutCell& cell : changed.cells) {
     cell.mirrored = false;
     if (adjoining && cell.chart <= nx) cell.chart = px + nx - cell.chart;
@@ -235,9 +266,9 @@ Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, st
         throw Error("'" + parts[i] + "': after the face come 90, 180, 270 or mirror, not '" + words[k] + "'");
       }
     }
-    if ((cell.quarter_turns & 1) != 0 && p.aspect() != 1) throw Error("only square charts can be turned by 90°");
+    if ((cell.quarter_turns & 1) != 0 && p.aspect() != 1)
+      throw Error("only square charts can be turned by 90°");
   }
-  changed.name = layout.name;
   return changed;
 }
 
@@ -250,8 +281,10 @@ void check_turns(const Layout& layout, ChartSize size) {
   if (size.width == size.height) return;
   for (const LayoutCell& cell : layout.cells) {
     if ((cell.quarter_turns & 1) == 0) continue;
-    throw Error("faces of " + std::to_string(size.width) + "×" + std::to_string(size.height) + " cannot be turned by 90° in " +
-                (layout.name.empty() ? std::string("a picture") : "the layout " + layout.name) + ": they must be square");
+    throw Error("faces of " + std::to_string(size.width) + "×" + std::to_string(size.height) +
+                " cannot be turned by 90° in " +
+                (layout.name.empty() ? std::string("a picture") : "the layout " + layout.name) +
+                ": they must be square");
   }
 }
 

@@ -10,7 +10,8 @@
 /// Layouts: how the charts of a map lie in a picture, or in several.
 namespace welkin {
 
-/// One chart in the grid of a layout: mirrored left to right first, if so, then turned clockwise by quarter turns.
+/// One chart in the grid of a layout: mirrored left to right first, if so, then turned clockwise by quarter
+/// turns.
 struct LayoutCell {
   int chart = 0;
   int column = 0;
@@ -22,7 +23,8 @@ struct LayoutCell {
 enum class LayoutKind {
   picture,  ///< one picture with all charts in a grid of equal cells
   files,    ///< a picture per chart, `%s` in the file's name standing for the chart's name
-  layers,   ///< a part (EXR) or page (TIFF) per chart, as the parameterization has it: not mirrored, not turned
+  layers,   ///< a part (EXR) or page (TIFF) per chart, as the parameterization has it: not mirrored, not
+            ///< turned
 };
 
 struct Layout {
@@ -33,14 +35,15 @@ struct Layout {
   std::vector<LayoutCell> cells;  ///< one per chart
 };
 
-/// The layouts of a parameterization, its default first. Crosses, strips and face files are pictures seen from inside, never
-/// mirrored; native cube faces are (docs/conventions.md).
+/// The layouts of a parameterization, its default first. Crosses, strips and face files are pictures seen
+/// from inside, never mirrored; native cube faces are (docs/conventions.md).
 const std::vector<Layout>& layouts_of(const sphere::AnyParameterization& parameterization);
 
 /// Names of the charts in file names and `--faces`: px nx py ny pz nz for cubes, else 0, 1, 2….
 std::vector<std::string> chart_names(const sphere::AnyParameterization& parameterization);
 
-/// A parameterization and a layout, as written on the command line: `cube:hcross`, `fisheye-equidistant,fov=200`.
+/// A parameterization and a layout, as written on the command line: `cube:hcross`,
+/// `fisheye-equidistant,fov=200`.
 struct MapShape {
   sphere::AnyParameterization parameterization;
   Layout layout;
@@ -51,21 +54,25 @@ struct MapShape {
 /// Parses NAME[:LAYOUT][,PARAMETER=VALUE]…. Throws Error for unknown names, with the nearest.
 MapShape parse_map_shape(std::string_view text);
 
-/// The shape of charts of this size. It differs where the parameterization depends on the size: parameters `width` and `height` follow it.
+/// The shape of charts of this size. It differs where the parameterization depends on the size: parameters
+/// `width` and `height` follow it.
 MapShape for_chart_size(const MapShape& shape, ChartSize size);
 
-/// The layout for a map whose orientation is a reflection. Its native faces are unmirrored pictures already, so cells aren't mirrored,
-/// and where faces adjoin, +X and −X change places.
+/// The layout for a map whose orientation is a reflection. Its native faces are unmirrored pictures already,
+/// so cells aren't mirrored, and where faces adjoin, +X and −X change places.
 Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& parameterization);
 
-/// Another order and turn of the charts: `px,nx,py:90,ny:270:mirror,pz,nz` names the chart of each of the layout's cells in reading
-/// order, and how its picture is turned clockwise (after mirroring) beyond what the layout does. Also `+X` for `px`.
-Layout with_faces(const Layout& layout, const sphere::AnyParameterization& parameterization, std::string_view faces);
+/// Another order and turn of the charts: `px,nx,py:90,ny:270:mirror,pz,nz` names the chart of each of the
+/// layout's cells in reading order, and how its picture is turned clockwise (after mirroring) beyond what the
+/// layout does. Also `+X` for `px`.
+Layout with_faces(const Layout& layout, const sphere::AnyParameterization& parameterization,
+                  std::string_view faces);
 
 /// Size of a chart in a picture of this size, or nothing when the grid doesn't divide it.
 std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, int picture_height);
 
-/// Throws Error when the layout turns a cell by 90° or 270° and charts of this size, not being square, would no longer fit the grid.
+/// Throws Error when the layout turns a cell by 90° or 270° and charts of this size, not being square, would
+/// no longer fit the grid.
 void check_turns(const Layout& layout, ChartSize size);
 
 /// Copies a chart out of a cell's pixels, or into them. Sizes match (swapped for odd quarter turns).

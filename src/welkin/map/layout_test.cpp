@@ -37,11 +37,13 @@ TEST(Layout, CrossesJoinAtEveryInnerEdge) {
         for (const LayoutCell& b : layout.cells) {
           for (const double t : {0.1, 0.5, 0.9}) {
             if (b.row == a.row && b.column == a.column + 1) {
-              EXPECT_LT(length(direction_in(cube, a, 1, t) - direction_in(cube, b, 0, t)), 1e-12) << layout.name;
+              EXPECT_LT(length(direction_in(cube, a, 1, t) - direction_in(cube, b, 0, t)), 1e-12)
+                  << layout.name;
               ++checked;
             }
             if (b.column == a.column && b.row == a.row + 1) {
-              EXPECT_LT(length(direction_in(cube, a, t, 1) - direction_in(cube, b, t, 0)), 1e-12) << layout.name;
+              EXPECT_LT(length(direction_in(cube, a, t, 1) - direction_in(cube, b, t, 0)), 1e-12)
+                  << layout.name;
               ++checked;
             }
           }
@@ -67,7 +69,8 @@ TEST(Layout, BandsJoinWithinTheirRows) {
   FAIL() << "no bands";
 }
 
-/// Seen from inside, right × down points away from the eye: right × down · forward > 0 in a right-handed world.
+/// Seen from inside, right × down points away from the eye: right × down · forward > 0 in a right-handed
+/// world.
 TEST(Layout, PicturesOfCubesAreNeverMirrored) {
   const auto cube = AnyParameterization::make("cube");
   for (const Layout& layout : layouts_of(cube)) {
@@ -91,15 +94,15 @@ TEST(Layout, OpenExrStripFollowsItsHeader) {
     }
     return Vec3d{};
   };
-  EXPECT_GT(towards(0, 0.9, 0.5).z, 0.1);   // +X: Z at the right, Y on top
+  EXPECT_GT(towards(0, 0.9, 0.5).z, 0.1);  // +X: Z at the right, Y on top
   EXPECT_GT(towards(0, 0.5, 0.1).y, 0.1);
-  EXPECT_GT(towards(1, 0.1, 0.5).z, 0.1);   // −X: Z at the left
-  EXPECT_GT(towards(2, 0.5, 0.1).z, 0.1);   // +Y: Z on top, X at the right
+  EXPECT_GT(towards(1, 0.1, 0.5).z, 0.1);  // −X: Z at the left
+  EXPECT_GT(towards(2, 0.5, 0.1).z, 0.1);  // +Y: Z on top, X at the right
   EXPECT_GT(towards(2, 0.9, 0.5).x, 0.1);
-  EXPECT_GT(towards(3, 0.5, 0.9).z, 0.1);   // −Y: Z at the bottom, X at the right
+  EXPECT_GT(towards(3, 0.5, 0.9).z, 0.1);  // −Y: Z at the bottom, X at the right
   EXPECT_GT(towards(3, 0.9, 0.5).x, 0.1);
-  EXPECT_GT(towards(4, 0.1, 0.5).x, 0.1);   // +Z: X at the left
-  EXPECT_GT(towards(5, 0.9, 0.5).x, 0.1);   // −Z: X at the right
+  EXPECT_GT(towards(4, 0.1, 0.5).x, 0.1);  // +Z: X at the left
+  EXPECT_GT(towards(5, 0.9, 0.5).x, 0.1);  // −Z: X at the right
 }
 
 TEST(Layout, EveryLayoutHasEveryChartOnceInACellOfItsOwn) {
@@ -138,7 +141,8 @@ TEST(Layout, CopyingToACellAndBackKeepsTheChart) {
 }
 
 TEST(MapShape, ParsesAndTellsItselfAgain) {
-  for (const char* text : {"latlong", "cube:vcross", "fisheye-equidistant,fov=200", "paraboloid:vstrip", "healpix:grid"}) {
+  for (const char* text :
+       {"latlong", "cube:vcross", "fisheye-equidistant,fov=200", "paraboloid:vstrip", "healpix:grid"}) {
     EXPECT_EQ(parse_map_shape(text).text(), text);
   }
   EXPECT_EQ(parse_map_shape("cube").text(), "cube:hcross");
@@ -168,7 +172,8 @@ TEST(Layout, FacesAreReorderedTurnedAndRefused) {
   // Turned by 270°, then mirrored: a mirrored picture turned by 90°; its own mirroring cancels.
   EXPECT_EQ(changed.cells[3].quarter_turns, 1);
   EXPECT_FALSE(changed.cells[3].mirrored);
-  for (const char* bad : {"px,nx,py,ny,pz", "px,px,py,ny,pz,nz", "px,nx,py,ny,pz,qq", "px:45,nx,py,ny,pz,nz"}) {
+  for (const char* bad :
+       {"px,nx,py,ny,pz", "px,px,py,ny,pz,nz", "px,nx,py,ny,pz,qq", "px:45,nx,py,ny,pz,nz"}) {
     EXPECT_THROW(with_faces(strip, cube, bad), Error) << bad;
   }
 }

@@ -18,7 +18,8 @@ Level::Level(int charts, int width, int height, int channels)
                 std::to_string(kLargestSide / charts) + ")");
   }
   if (channels < 1 || channels > kMostChannels) {
-    throw Error("a map has 1 to " + std::to_string(kMostChannels) + " channels, not " + std::to_string(channels));
+    throw Error("a map has 1 to " + std::to_string(kMostChannels) + " channels, not " +
+                std::to_string(channels));
   }
   storage_ = Image(width + 2 * kBorder, (height + 2 * kBorder) * charts, channels);
 }
@@ -33,15 +34,22 @@ ImageView<const float> Level::chart(int index) const {
   return storage_.view().part(kBorder, index * (height_ + 2 * kBorder) + kBorder, width_, height_);
 }
 
-std::ptrdiff_t Level::chart_stride() const { return (height_ + 2 * kBorder) * storage_.view().row_stride; }
+std::ptrdiff_t Level::chart_stride() const {
+  return (height_ + 2 * kBorder) * storage_.view().row_stride;
+}
 
 std::vector<std::string> default_channel_names(int count) {
   switch (count) {
-    case 1: return {"Y"};
-    case 2: return {"Y", "A"};
-    case 3: return {"R", "G", "B"};
-    case 4: return {"R", "G", "B", "A"};
-    default: break;
+    case 1:
+      return {"Y"};
+    case 2:
+      return {"Y", "A"};
+    case 3:
+      return {"R", "G", "B"};
+    case 4:
+      return {"R", "G", "B", "A"};
+    default:
+      break;
   }
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.push_back("C" + std::to_string(i));
@@ -53,8 +61,8 @@ Map::Map(sphere::AnyParameterization which, int width, int height, int channels)
       level(parameterization.charts(), width, height, channels),
       channel_names(default_channel_names(channels)) {}
 
-void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart, int row,
-                        float* out) {
+void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart,
+                        int row, float* out) {
   constexpr int kBatch = 256;
   alignas(64) float u[kBatch], v[kBatch], density[kBatch], valid[kBatch];
   const float texel_area = 1.0f / (static_cast<float>(width) * static_cast<float>(height));

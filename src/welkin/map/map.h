@@ -9,7 +9,8 @@
 
 namespace welkin {
 
-/// Texels of border around every chart at every level: enough for the widest kernel here (Lanczos with four lobes).
+/// Texels of border around every chart at every level: enough for the widest kernel here (Lanczos with four
+/// lobes).
 inline constexpr int kBorder = 4;
 
 inline constexpr int kMostChannels = 64;
@@ -38,9 +39,9 @@ class Level {
   int height_ = 0;
 };
 
-/// A map: a parameterization with pixels. Radiance is linear, unclamped, and positions are in the native world
-/// (docs/conventions.md) turned by `orientation`: the texel at parameterization direction d shows the world's direction
-/// orientationᵀ·d.
+/// A map: a parameterization with pixels. Radiance is linear, unclamped, and positions are in the native
+/// world (docs/conventions.md) turned by `orientation`: the texel at parameterization direction d shows the
+/// world's direction orientationᵀ·d.
 struct Map {
   sphere::AnyParameterization parameterization;
   Level level;
@@ -64,8 +65,9 @@ struct ChartSize {
 /// Names for the channels of an image that has `count` of them.
 std::vector<std::string> default_channel_names(int count);
 
-/// Solid angle of every texel of a chart's row, sr: `out` has the level's width. Texels that are not valid get 0.
-void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart, int row,
-                        float* out);
+/// Solid angle of every texel of a chart's row, sr: `out` has the level's width. Texels that are not valid
+/// get 0.
+void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart,
+                        int row, float* out);
 
 }  // namespace welkin

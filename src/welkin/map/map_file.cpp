@@ -29,8 +29,8 @@ std::optional<Matrix3> matrix_from(const std::string& text) {
   return m;
 }
 
-/// Whether a picture of this size can be of this shape: within one texel, or a hundredth, of the aspect. Texels of the
-/// equal-area map are never square, so it may have any aspect.
+/// Whether a picture of this size can be of this shape: within one texel, or a hundredth, of the aspect.
+/// Texels of the equal-area map are never square, so it may have any aspect.
 bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
   const auto size = chart_size_in(shape.layout, width, height);
   if (!size) return false;
@@ -69,7 +69,8 @@ int border_from(const std::string& text) {
   return value > 0 && value < (1 << 20) ? static_cast<int>(value) : 0;
 }
 
-/// Whether another program turned our map into the one that its `envmap` declares, and copied our declaration along.
+/// Whether another program turned our map into the one that its `envmap` declares, and copied our declaration
+/// along.
 bool is_copied(const std::string& declared, const io::FileInfo& file) {
   return file.envmap && !declared.starts_with("openexr-" + *file.envmap);
 }
@@ -103,7 +104,8 @@ std::vector<int> choose_channels(const std::string& name, const io::PartInfo& pa
 /// Opens the file, or the first of the files of a pattern.
 std::unique_ptr<io::Reader> open_first(const fs::path& path, const ReadMapOptions& options) {
   if (!is_pattern(path)) return io::open(path, options.image);
-  // What the charts are called depends on the shape; without one there may be faces of a cube, or numbered charts.
+  // What the charts are called depends on the shape; without one there may be faces of a cube, or numbered
+  // charts.
   if (options.shape) {
     return io::open(chart_path(path, chart_names(parse_map_shape(*options.shape).parameterization).front()),
                     options.image);
@@ -147,7 +149,8 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   try {
     info.shape = parse_map_shape(shape);
     info.shape->layout = layout_for(info.shape->layout, info.shape->parameterization, info.orientation);
-    if (!faces.empty()) info.shape->layout = with_faces(info.shape->layout, info.shape->parameterization, faces);
+    if (!faces.empty())
+      info.shape->layout = with_faces(info.shape->layout, info.shape->parameterization, faces);
   } catch (const Error& error) {
     // A damaged declaration names its file; a bad request names itself.
     if (!options.shape && options.faces.empty()) throw Error(path.string() + ": " + error.what());
@@ -160,7 +163,8 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
                 chart_names(info.shape->parameterization)[1] + "…");
   }
   if (kind != LayoutKind::files && pattern) {
-    throw Error(path.string() + ": %s stands for a face's name, but " + info.shape->text() + " is in one file");
+    throw Error(path.string() + ": %s stands for a face's name, but " + info.shape->text() +
+                " is in one file");
   }
   if (kind == LayoutKind::layers && file.parts.size() < info.shape->layout.cells.size()) {
     throw Error(path.string() + ": " + info.shape->text() + " needs " +
@@ -173,12 +177,14 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   }
   const io::PartInfo& part = file.parts[kind == LayoutKind::layers ? 0 : options.part];
   Layout single;  // one chart per picture
-  const MapShape per_picture{info.shape->parameterization, kind == LayoutKind::picture ? info.shape->layout : single};
+  const MapShape per_picture{info.shape->parameterization,
+                             kind == LayoutKind::picture ? info.shape->layout : single};
   info.border = options.border;
   if (!options.shape && options.border == 0) info.border = border_from(attribute(file, kBorderKey));
   // Texels that aren't square were asked for, where the file gives the very size of its charts.
   const int columns = per_picture.layout.columns, rows = per_picture.layout.rows;
-  const int inner_width = part.width - 2 * info.border * columns, inner_height = part.height - 2 * info.border * rows;
+  const int inner_width = part.width - 2 * info.border * columns,
+            inner_height = part.height - 2 * info.border * rows;
   if (inner_width < 1 || inner_height < 1) {
     throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
                 " leaves nothing inside a border of " + std::to_string(info.border));
@@ -188,10 +194,12 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   if (as_written) info.chart = *divided;
   if (!as_written && !size_fits(per_picture, inner_width, inner_height, info.chart)) {
     char aspect[32];
-    std::snprintf(aspect, sizeof aspect, "%.4g",
-                  info.shape->parameterization.aspect() * per_picture.layout.columns / per_picture.layout.rows);
+    std::snprintf(
+        aspect, sizeof aspect, "%.4g",
+        info.shape->parameterization.aspect() * per_picture.layout.columns / per_picture.layout.rows);
     throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
-                " does not fit " + info.shape->text() + " (" + info.reason + "), whose width is " + aspect + " times its height" +
+                " does not fit " + info.shape->text() + " (" + info.reason + "), whose width is " + aspect +
+                " times its height" +
                 (per_picture.layout.columns * per_picture.layout.rows > 1
                      ? " in " + std::to_string(per_picture.layout.columns) + "×" +
                            std::to_string(per_picture.layout.rows) + " equal cells"
@@ -208,18 +216,36 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
 
 }  // namespace
 
-MapFileInfo inspect_map(const fs::path& path, const ReadMapOptions& options) {
-  return inspect(path, open_first(path, options)->info(), options);
+MapReader::MapReader(const fs::path& path, const ReadMapOptions& options)
+    : path_(path),
+      options_(options),
+      reader_(open_first(path, options)),
+      info_(inspect(path, reader_->info(), options)) {}
+
+void MapReader::set_faces(std::string faces) {
+  options_.faces = std::move(faces);
+  info_ = inspect(path_, reader_->info(), options_);
+}
+
+void MapReader::set_orientation(const Matrix3& orientation) {
+  options_.orientation = orientation;
+  info_ = inspect(path_, reader_->info(), options_);
 }
 
 LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
-  const std::string name = path.string();
-  std::unique_ptr<io::Reader> reader = open_first(path, options);
-  MapFileInfo info = inspect(path, reader->info(), options);
+  MapReader reader(path, options);
+  return {reader.read(), reader.info()};
+}
+
+Map MapReader::read() {
+  const std::string name = path_.string();
+  const MapFileInfo& info = info_;
+  const ReadMapOptions& options = options_;
   if (!info.shape) {
     const io::PartInfo& part = info.image.parts.at(std::min(options.part, info.image.parts.size() - 1));
     throw Error(name + ": cannot tell which parameterization " + std::to_string(part.width) + "×" +
-                std::to_string(part.height) + " is; name it with --from (octahedral, angular, sphere, fisheye-equidistant…)");
+                std::to_string(part.height) +
+                " is; name it with --from (octahedral, angular, sphere, fisheye-equidistant…)");
   }
   const Layout& layout = info.shape->layout;
   const auto& p = info.shape->parameterization;
@@ -239,16 +265,15 @@ LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
     return picture.part(border, border, picture.width - 2 * border, picture.height - 2 * border);
   };
   /// One picture holds one chart: straight into the map where it is neither turned nor mirrored.
-  const auto read_chart = [&](io::Reader& from, std::size_t part, const LayoutCell& cell, const std::string& file) {
+  const auto read_chart = [&](io::Reader& from, std::size_t part, const LayoutCell& cell,
+                              const std::string& file) {
     const io::PartInfo& other = from.info().parts.at(part);
     if (other.width - 2 * border != info.chart.width || other.height - 2 * border != info.chart.height) {
       throw Error(file + ": is " + std::to_string(other.width) + "×" + std::to_string(other.height) +
                   ", but the first face is " + std::to_string(info.chart.width) + "×" +
                   std::to_string(info.chart.height));
     }
-    std::vector<std::string> names;
-    for (const std::string& each : map.channel_names) names.push_back(each);
-    const std::vector<int> own = choose_channels(file, other, names);
+    const std::vector<int> own = choose_channels(file, other, map.channel_names);
     if (plain(cell)) return from.read(part, own, map.level.chart(cell.chart));
     Image picture(other.width, other.height, count);
     from.read(part, own, picture.view());
@@ -258,30 +283,31 @@ LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
     case LayoutKind::files: {
       const std::vector<std::string> names = chart_names(p);
       for (std::size_t i = 0; i < layout.cells.size(); ++i) {
-        const fs::path file = chart_path(path, names[i]);
+        const fs::path file = chart_path(path_, names[i]);
         read_chart(*io::open(file, options.image), options.part, layout.cells[i], file.string());
       }
       break;
     }
     case LayoutKind::layers:
-      for (std::size_t i = 0; i < layout.cells.size(); ++i) read_chart(*reader, i, layout.cells[i], name);
+      for (std::size_t i = 0; i < layout.cells.size(); ++i) read_chart(*reader_, i, layout.cells[i], name);
       break;
     case LayoutKind::picture:
       if (layout.cells.size() == 1 && plain(layout.cells[0])) {
-        reader->read(options.part, channels, map.level.chart(0));
+        reader_->read(options.part, channels, map.level.chart(0));
         break;
       }
       {
         const io::PartInfo& part = info.image.parts[options.part];
         Image picture(part.width, part.height, count);
-        reader->read(options.part, channels, picture.view());
+        reader_->read(options.part, channels, picture.view());
         for (const LayoutCell& cell : layout.cells) {
-          copy_from_cell(cell, inner(cell_of<const float>(layout, cell, picture.view())), map.level.chart(cell.chart));
+          copy_from_cell(cell, inner(cell_of<const float>(layout, cell, picture.view())),
+                         map.level.chart(cell.chart));
         }
       }
   }
   fill_borders(map);
-  return {std::move(map), std::move(info)};
+  return map;
 }
 
 }  // namespace welkin

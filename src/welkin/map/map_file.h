@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,48 +14,71 @@
 namespace welkin {
 
 struct ReadMapOptions {
-  std::optional<std::string> shape;  ///< NAME[:LAYOUT][,PARAMETER=VALUE]…; without it, what the file declares, else a guess
-  std::string faces;                 ///< see with_faces; empty for the layout's own order
+  std::optional<std::string>
+      shape;  ///< NAME[:LAYOUT][,PARAMETER=VALUE]…; without it, what the file declares, else a guess
+  std::string faces;  ///< see with_faces; empty for the layout's own order
   /// Which channels become the map's: names of the file. Empty: R G B (A), or Y (A), or the first three.
   std::vector<std::string> channels;
-  /// How the file's directions relate to the native world (convention.h); without it, what the file declares, else native.
+  /// How the file's directions relate to the native world (convention.h); without it, what the file declares,
+  /// else native.
   std::optional<Matrix3> orientation;
-  int border = 0;        ///< texels of safety border around every chart in the file, besides what the file declares
+  int border = 0;  ///< texels of safety border around every chart in the file, besides what the file declares
   std::size_t part = 0;  ///< of a file with several pictures, unless these are the charts
   io::ReadOptions image;
 };
 
 /// What is known of a map's file before its pixels are read.
 struct MapFileInfo {
-  io::FileInfo image;                ///< of the first file where there are several
-  std::optional<MapShape> shape;     ///< none when nothing declares it and the size suggests nothing
-  std::string reason;                ///< why this shape: `declared by the file`, `guessed from 2:1`…
-  ChartSize chart;                   ///< meaningful when there is a shape
-  int border = 0;                    ///< safety border around every chart in the file, texels
+  io::FileInfo image;             ///< of the first file where there are several
+  std::optional<MapShape> shape;  ///< none when nothing declares it and the size suggests nothing
+  std::string reason;             ///< why this shape: `declared by the file`, `guessed from 2:1`…
+  ChartSize chart;                ///< meaningful when there is a shape
+  int border = 0;                 ///< safety border around every chart in the file, texels
   Matrix3 orientation;
 };
 
-/// `path` contains `%s` when the charts are in files of their own. Throws Error: files that can't be read, shapes that don't exist,
-/// sizes that don't fit the shape.
-MapFileInfo inspect_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
+/// A map's file, opened once: it may be a pipe. `path` contains `%s` when the charts are in files of their
+/// own; the first of these is opened, the others when they are read. Members throw Error: files that can't be
+/// read, shapes that don't exist, sizes that don't fit the shape.
+class MapReader {
+ public:
+  explicit MapReader(const std::filesystem::path& path, const ReadMapOptions& options = {});
+
+  const MapFileInfo& info() const { return info_; }
+
+  /// Changes these options, now that the shape is known.
+  void set_faces(std::string faces);
+  void set_orientation(const Matrix3& orientation);
+
+  /// The map, its borders filled. Throws also when the shape is unknown: the message says how to name it. A
+  /// picture of one chart is decoded straight into the map; of several, the picture is in memory besides the
+  /// map while this lasts.
+  Map read();
+
+ private:
+  std::filesystem::path path_;
+  ReadMapOptions options_;
+  std::unique_ptr<io::Reader> reader_;
+  MapFileInfo info_;
+};
 
 struct LoadedMap {
-  Map map;  ///< borders filled
+  Map map;
   MapFileInfo info;
 };
 
-/// Throws Error as inspect_map does, and when the shape is unknown: the message says how to name it. A picture of one chart is
-/// decoded straight into the map.
+/// Opens and reads.
 LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
 
 struct WriteMapOptions {
   io::WriteOptions image;
   std::string faces;  ///< see with_faces
-  int border = 0;     ///< texels of safety border to write around every chart (safety_border.h); the map's borders must be filled
+  int border = 0;     ///< texels of safety border to write around every chart (safety_border.h); the map's
+                      ///< borders must be filled
 };
 
-/// Writes the charts in the layout. The parameterization, layout, faces and orientation go into the file's text metadata where
-/// the format has any, and reading it restores them. Cells that no chart fills are 0.
+/// Writes the charts in the layout. The parameterization, layout, faces and orientation go into the file's
+/// text metadata where the format has any, and reading it restores them. Cells that no chart fills are 0.
 io::WriteReport write_map(const std::filesystem::path& path, const Map& map, const Layout& layout,
                           const WriteMapOptions& options = {});
 

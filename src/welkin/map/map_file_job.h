@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
+#include "welkin/base/number_text.h"
 #include "welkin/map/layout.h"
 
 /// What reading and writing map files share. Internal to these two.
@@ -23,23 +23,26 @@ inline std::filesystem::path chart_path(const std::filesystem::path& pattern, co
   return text;
 }
 
-inline bool is_pattern(const std::filesystem::path& path) { return path.string().find("%s") != std::string::npos; }
+inline bool is_pattern(const std::filesystem::path& path) {
+  return path.string().find("%s") != std::string::npos;
+}
 
 inline std::string text_of(const Matrix3& m) {
   std::string text;
   for (const auto& row : m.rows) {
     for (double value : row) {
-      char number[32];
-      std::snprintf(number, sizeof number, "%.17g", value);
-      text += (text.empty() ? "" : " ") + std::string(number);
+      text += (text.empty() ? "" : " ") + number_text(value);
     }
   }
   return text;
 }
 
-inline std::string text_of(ChartSize size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+inline std::string text_of(ChartSize size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
 
-inline Layout layout_for(const Layout& layout, const sphere::AnyParameterization& p, const Matrix3& orientation) {
+inline Layout layout_for(const Layout& layout, const sphere::AnyParameterization& p,
+                         const Matrix3& orientation) {
   return determinant(orientation) < 0 ? for_reflected_world(layout, p) : layout;
 }
 

@@ -51,7 +51,8 @@ void expect_same(const Map& a, const Map& b) {
         // Reading fills what is no place of the map, as it fills borders.
         if (!a.parameterization.valid(chart, (x + 0.5) / a.width(), (y + 0.5) / a.height())) continue;
         for (int c = 0; c < a.channels(); ++c) {
-          ASSERT_EQ(a.level.chart(chart).at(x, y)[c], b.level.chart(chart).at(x, y)[c]) << a.parameterization.spec();
+          ASSERT_EQ(a.level.chart(chart).at(x, y)[c], b.level.chart(chart).at(x, y)[c])
+              << a.parameterization.spec();
         }
       }
     }
@@ -109,7 +110,7 @@ TEST_F(MapFile, GuessesBySize) {
     const Image picture(width, height, 3);
     const io::WritePart part{"", picture.view(), {"R", "G", "B"}};
     io::write(file("plain.pfm"), {&part, 1});
-    const MapFileInfo info = inspect_map(file("plain.pfm"));
+    const MapFileInfo info = MapReader(file("plain.pfm")).info();
     return info.shape ? info.shape->text() : "none";
   };
   EXPECT_EQ(guess(64, 32), "latlong");
@@ -179,7 +180,8 @@ TEST_F(MapFile, RefusesFacesOfDifferentSizes) {
     read_map(file("f_%s.pfm"), options);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("f_ny.pfm: is 5×5, but the first face is 4×4"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("f_ny.pfm: is 5×5, but the first face is 4×4"),
+              std::string::npos);
   }
 }
 
@@ -193,7 +195,8 @@ TEST_F(MapFile, DamagedDeclarationsNameTheFile) {
     read_map(file("bad.exr"));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("bad.exr: unknown parameterization"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("bad.exr: unknown parameterization"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -35,15 +35,16 @@ Image draw_mip_sheet(const Map& map, double exposure) {
   constexpr int kLargest = 512;
   if (map.width() > kLargest || map.height() > kLargest) {
     throw Error("a sheet of the pyramid is drawn of charts of at most 512 texels; this one is " +
-                std::to_string(map.width()) + "×" + std::to_string(map.height()) + ": convert it with --size first");
+                std::to_string(map.width()) + "×" + std::to_string(map.height()) +
+                ": convert it with --size first");
   }
   const Layout& layout = layouts_of(map.parameterization).front();
   const float scale = static_cast<float>(std::exp2(exposure));
   const int levels = std::max(0, levels_below(map.width(), map.height()) - 1);
   const int width = layout.columns * map.width(), height = layout.rows * map.height();
   Image sheet((levels + 1) * (width + kGap) - kGap, 2 * height + kGap, 3);
-  std::fill_n(sheet.view().data, static_cast<std::size_t>(sheet.width()) * static_cast<std::size_t>(sheet.height()) * 3,
-              0.2f);
+  std::fill_n(sheet.view().data,
+              static_cast<std::size_t>(sheet.width()) * static_cast<std::size_t>(sheet.height()) * 3, 0.2f);
   int y = 0;
   for (const TexelWeight weight : {TexelWeight::equal, TexelWeight::solid_angle}) {
     const std::vector<Level> pyramid = make_pyramid(map, levels, weight);

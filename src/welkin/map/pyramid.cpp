@@ -12,8 +12,8 @@
 namespace welkin {
 namespace {
 
-/// Where the texels of a finer row of `fine` fall in a coarser one of `coarse` = ⌈fine/2⌉: the first of up to three, and
-/// how much of each is inside.
+/// Where the texels of a finer row of `fine` fall in a coarser one of `coarse` = ⌈fine/2⌉: the first of up to
+/// three, and how much of each is inside.
 struct Overlap {
   int first;
   float share[3];
@@ -27,18 +27,19 @@ std::vector<Overlap> overlaps(int fine, int coarse) {
     Overlap& each = list[static_cast<std::size_t>(i)];
     each.first = std::min(static_cast<int>(from + 1e-9), fine - 1);
     for (int k = 0; k < 3; ++k) {
-      const double low = std::max<double>(from, each.first + k), high = std::min<double>(to, each.first + k + 1);
+      const double low = std::max<double>(from, each.first + k),
+                   high = std::min<double>(to, each.first + k + 1);
       each.share[k] = each.first + k < fine ? static_cast<float>(std::max(0.0, high - low)) : 0.0f;
     }
   }
   return list;
 }
 
-/// One row of the coarser level where both sides of the finer are even and all texels of a row weigh the same.
-/// `C` channels, known at compile time so that the loop is a few vector instructions.
+/// One row of the coarser level where both sides of the finer are even and all texels of a row weigh the
+/// same. `C` channels, known at compile time so that the loop is a few vector instructions.
 template <int C>
-void reduce_uniform_row(const float* above, const float* below, float weight_above, float weight_below, int width,
-                        float* out) {
+void reduce_uniform_row(const float* above, const float* below, float weight_above, float weight_below,
+                        int width, float* out) {
   for (int x = 0; x < width; ++x) {
     for (int c = 0; c < C; ++c) {
       out[c] = weight_above * (above[c] + above[C + c]) + weight_below * (below[c] + below[C + c]);
@@ -54,7 +55,8 @@ void reduce_uniform_row(const float* above, const float* below, float weight_abo
 Level reduce(const sphere::AnyParameterization& parameterization, const Level& finer, TexelWeight weight) {
   const int width = (finer.width() + 1) / 2, height = (finer.height() + 1) / 2, channels = finer.channels();
   Level coarser(finer.charts(), width, height, channels);
-  const std::vector<Overlap> columns = overlaps(finer.width(), width), rows = overlaps(finer.height(), height);
+  const std::vector<Overlap> columns = overlaps(finer.width(), width),
+                             rows = overlaps(finer.height(), height);
   const bool even = finer.width() % 2 == 0 && finer.height() % 2 == 0;
   const bool uniform = even && (weight == TexelWeight::equal || parameterization.density_by_row()) &&
                        parameterization.full_charts();
@@ -79,10 +81,14 @@ Level reduce(const sphere::AnyParameterization& parameterization, const Level& f
       const float wa = weights[0], wb = weights[fine_width];
       const float scale = 0.5f / (wa + wb);
       switch (channels) {
-        case 1: return reduce_uniform_row<1>(above, below, wa * scale, wb * scale, width, out);
-        case 2: return reduce_uniform_row<2>(above, below, wa * scale, wb * scale, width, out);
-        case 3: return reduce_uniform_row<3>(above, below, wa * scale, wb * scale, width, out);
-        default: return reduce_uniform_row<4>(above, below, wa * scale, wb * scale, width, out);
+        case 1:
+          return reduce_uniform_row<1>(above, below, wa * scale, wb * scale, width, out);
+        case 2:
+          return reduce_uniform_row<2>(above, below, wa * scale, wb * scale, width, out);
+        case 3:
+          return reduce_uniform_row<3>(above, below, wa * scale, wb * scale, width, out);
+        default:
+          return reduce_uniform_row<4>(above, below, wa * scale, wb * scale, width, out);
       }
     }
     for (int x = 0; x < width; ++x, out += channels) {

@@ -1,38 +1,27 @@
 #include "welkin/map/resample.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
 
 #include "welkin/map/resample_job.h"
 
 namespace welkin {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Filter>, 5> kFilterNames{{{"auto", Filter::automatic},
-                                                                           {"nearest", Filter::nearest},
-                                                                           {"bilinear", Filter::bilinear},
-                                                                           {"bicubic", Filter::bicubic},
-                                                                           {"lanczos", Filter::lanczos}}};
+/// The fill wherever a chart has no place of the map.
+void fill_outside(Map& map, std::vector<float> fill) {
+  fill.resize(static_cast<std::size_t>(map.channels()), 0.0f);
+  parallel_for(map.charts() * map.height(), [&](int i) {
+    const int chart = i / map.height(), y = i % map.height();
+    for (int x = 0; x < map.width(); ++x) {
+      if (!map.parameterization.valid(chart, (x + 0.5) / map.width(), (y + 0.5) / map.height())) {
+        std::copy(fill.begin(), fill.end(), map.level.chart(chart).at(x, y));
+      }
+    }
+  });
+}
 
 }  // namespace
-
-Filter filter_from_name(std::string_view name) {
-  std::vector<std::string> names;
-  for (const auto& [each, filter] : kFilterNames) {
-    if (each == name) return filter;
-    names.emplace_back(each);
-  }
-  throw Error(unknown_name("filter", name, names));
-}
-
-std::string_view name_of(Filter filter) {
-  for (const auto& [name, each] : kFilterNames) {
-    if (each == filter) return name;
-  }
-  return "?";
-}
 
 void resample(const Map& source, Map& target, const ResampleOptions& options) {
   const bool same = source.parameterization == target.parameterization && source.width() == target.width() &&
@@ -42,6 +31,7 @@ void resample(const Map& source, Map& target, const ResampleOptions& options) {
     for (int chart = 0; chart < source.charts(); ++chart) {
       copy_pixels(source.level.chart(chart), target.level.chart(chart));
     }
+    if (!target.parameterization.full_charts()) fill_outside(target, options.fill);
     return;
   }
   const ResampleJob job(source, target, options);
@@ -65,7 +55,8 @@ ChartSize default_chart_size(const Map& map, const sphere::AnyParameterization& 
   const double per_steradian =
       used(map.parameterization) * map.width() * map.height() / map.parameterization.coverage();
   const double texels = per_steradian * parameterization.coverage() / used(parameterization);
-  const int width = std::max(2, 2 * static_cast<int>(std::lround(0.5 * std::sqrt(texels * parameterization.aspect()))));
+  const int width =
+      std::max(2, 2 * static_cast<int>(std::lround(0.5 * std::sqrt(texels * parameterization.aspect()))));
   return {width, std::max(1, static_cast<int>(std::lround(width / parameterization.aspect())))};
 }
 

@@ -11,8 +11,8 @@
 namespace welkin {
 namespace {
 
-/// Where a grid of points of the target lies in the source, and what each weighs: 0 where it is no place of the target, or the
-/// source doesn't show it.
+/// Where a grid of points of the target lies in the source, and what each weighs: 0 where it is no place of
+/// the target, or the source doesn't show it.
 struct Grid {
   std::vector<float> chart, u, v, weight;
 };
@@ -26,11 +26,13 @@ class AreaResampler {
     Map& target = job_.target;
     const int bands = (target.height() + kTileSide - 1) / kTileSide;
     std::vector<std::vector<FootprintTile>> tiles(static_cast<std::size_t>(target.charts() * bands));
-    parallel_for(target.charts() * bands, [&](int i) {
-      const int y = i % bands * kTileSide;
-      plan_tiles(job_.source, target, job_.to_source, i / bands, y, std::min(kTileSide, target.height() - y),
-                 tiles[static_cast<std::size_t>(i)]);
-    });
+    parallel_for(target.charts() * bands,
+                 [&](int i) {
+                   const int y = i % bands * kTileSide;
+                   plan_tiles(job_.source, target, job_.to_source, i / bands, y,
+                              std::min(kTileSide, target.height() - y), tiles[static_cast<std::size_t>(i)]);
+                 },
+                 {nullptr, job_.options.monitor.cancelled});
     int coarsest = 0;
     for (const auto& band : tiles) {
       for (const auto& tile : band) coarsest = std::max(coarsest, tile.level);
@@ -59,15 +61,18 @@ class AreaResampler {
       }
       return;
     }
-    // The texels of a small target are too large to be flat in the source, though they may look so at their corners.
+    // The texels of a small target are too large to be flat in the source, though they may look so at their
+    // corners.
     constexpr int kSmall = 16;
-    if (tile.whole && job_.target.width() > kSmall && job_.target.height() > kSmall) return fill_by_areas(tile, batch);
+    if (tile.whole && job_.target.width() > kSmall && job_.target.height() > kSmall)
+      return fill_by_areas(tile, batch);
     for (int y = 0; y < tile.height; ++y) {
       for (int x = 0; x < tile.width;) x += average(tile, x, y, tile.width, per_texel, batch);
     }
   }
 
-  void locate_grid(const FootprintTile& tile, int columns, int rows, float offset, Batch& batch, Grid& grid) const {
+  void locate_grid(const FootprintTile& tile, int columns, int rows, float offset, Batch& batch,
+                   Grid& grid) const {
     const std::size_t points = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     for (auto* list : {&grid.chart, &grid.u, &grid.v, &grid.weight}) list->resize(points);
     const float across = 1.0f / static_cast<float>(job_.target.width());
@@ -92,8 +97,8 @@ class AreaResampler {
     }
   }
 
-  /// Texels whose area is a parallelogram in one source chart are averaged texel by texel; the few others (poles, chart edges,
-  /// folds, rims) from samples that each find their own place.
+  /// Texels whose area is a parallelogram in one source chart are averaged texel by texel; the few others
+  /// (poles, chart edges, folds, rims) from samples that each find their own place.
   void fill_by_areas(const FootprintTile& tile, Batch& batch) const {
     Grid corners, centres;
     locate_grid(tile, tile.width + 1, tile.height + 1, 0.0f, batch, corners);
@@ -107,7 +112,8 @@ class AreaResampler {
       for (int x = 0; x < tile.width; ++x) {
         const std::size_t corner = static_cast<std::size_t>(y * (tile.width + 1) + x);
         const std::size_t centre = static_cast<std::size_t>(y * tile.width + x);
-        if (parallelogram(level, corners, corner, static_cast<std::size_t>(tile.width + 1), centres, centre, area)) {
+        if (parallelogram(level, corners, corner, static_cast<std::size_t>(tile.width + 1), centres, centre,
+                          area)) {
           area_mean_(level, &area, mean.data(), 1);
           std::copy_n(mean.data(), job_.channels(), out.at(tile.x + x, tile.y + y));
         } else {
@@ -117,9 +123,9 @@ class AreaResampler {
     }
   }
 
-  /// The parallelogram through four corners, unless one of them is no place of either map, or they lie in different charts, or it
-  /// bends or twists by more than a fraction of a texel, or the target's density is not linear over it, or it leaves the
-  /// chart's border.
+  /// The parallelogram through four corners, unless one of them is no place of either map, or they lie in
+  /// different charts, or it bends or twists by more than a fraction of a texel, or the target's density is
+  /// not linear over it, or it leaves the chart's border.
   static bool parallelogram(const LevelView& level, const Grid& corners, std::size_t corner, std::size_t row,
                             const Grid& centres, std::size_t centre, Parallelogram& out) {
     constexpr float kMostBend = 0.25f, kMostUnevenness = 0.005f;
@@ -154,21 +160,24 @@ class AreaResampler {
     out.across[1] = -down[0] / determinant;
     out.down[0] = -right[1] / determinant;
     out.down[1] = right[0] / determinant;
-    const float w[4] = {corners.weight[at[0]], corners.weight[at[1]], corners.weight[at[2]], corners.weight[at[3]]};
-    if (!(std::fabs(middle(w) - centres.weight[centre]) < kMostUnevenness * centres.weight[centre])) return false;
+    const float w[4] = {corners.weight[at[0]], corners.weight[at[1]], corners.weight[at[2]],
+                        corners.weight[at[3]]};
+    if (!(std::fabs(middle(w) - centres.weight[centre]) < kMostUnevenness * centres.weight[centre]))
+      return false;
     const float scale = 0.5f / centres.weight[centre];
     out.gradient[0] = (w[1] + w[3] - w[0] - w[2]) * scale;
     out.gradient[1] = (w[2] + w[3] - w[0] - w[1]) * scale;
     return std::isfinite(out.gradient[0]) && std::isfinite(out.gradient[1]);
   }
 
-  /// Means of the next texels of a tile's row, at most `most` and as many as fit into a batch; returns how many.
+  /// Means of the next texels of a tile's row, at most `most` and as many as fit into a batch; returns how
+  /// many.
   int average(const FootprintTile& tile, int x0, int y0, int most, int per_texel, Batch& batch) const {
     const int texels = std::clamp(kBatch / per_texel, 1, std::min(most, tile.width - x0));
     // The mean of several samples hides how each is interpolated.
-    const Fetch kernel = per_texel >= 9   ? job_.kernels.bilinear
-                         : per_texel > 4  ? job_.fetch_of(Filter::bicubic)
-                                          : job_.fetch_of(Filter::automatic);
+    const Fetch kernel = per_texel >= 9  ? job_.kernels.bilinear
+                         : per_texel > 4 ? job_.fetch_of(Filter::bicubic)
+                                         : job_.fetch_of(Filter::automatic);
     const LevelView& level = levels_[std::min(static_cast<std::size_t>(tile.level), levels_.size() - 1)];
     Sum sum(job_);
     for (int from = 0; from < per_texel; from += kBatch) {
@@ -182,7 +191,8 @@ class AreaResampler {
       const float* values = batch.fetch(kernel, level, count);
       for (int texel = 0; texel < texels; ++texel) {
         if (from == 0) sum.clear();
-        sum.add(batch.weight + texel * each, values + static_cast<std::size_t>(texel * each) * job_.channels(), each);
+        sum.add(batch.weight + texel * each,
+                values + static_cast<std::size_t>(texel * each) * job_.channels(), each);
         if (from + each == per_texel) {
           sum.mean(job_.target.level.chart(tile.chart).at(tile.x + x0 + texel, tile.y + y0));
         }
@@ -191,7 +201,8 @@ class AreaResampler {
     return texels;
   }
 
-  /// Places of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that is averaged.
+  /// Places of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that is
+  /// averaged.
   void spread_samples(const FootprintTile& tile, int x, int y, int from, int count, Batch& batch,
                       std::size_t to) const {
     const float fx = (static_cast<float>(x) + 0.5f) / static_cast<float>(tile.width);
@@ -201,10 +212,12 @@ class AreaResampler {
       const float bottom = corners[2] + fx * (corners[3] - corners[2]);
       return top + fy * (bottom - top);
     };
-    const float across = 1.0f / static_cast<float>(job_.target.width()), down = 1.0f / static_cast<float>(job_.target.height());
+    const float across = 1.0f / static_cast<float>(job_.target.width()),
+                down = 1.0f / static_cast<float>(job_.target.height());
     const float step_x = spread(mix(tile.texels_right)) / static_cast<float>(tile.samples_right);
     const float step_y = spread(mix(tile.texels_down)) / static_cast<float>(tile.samples_down);
-    const float centre_x = static_cast<float>(tile.x + x) + 0.5f, centre_y = static_cast<float>(tile.y + y) + 0.5f;
+    const float centre_x = static_cast<float>(tile.x + x) + 0.5f,
+                centre_y = static_cast<float>(tile.y + y) + 0.5f;
     const float middle_x = 0.5f * static_cast<float>(tile.samples_right - 1);
     const float middle_y = 0.5f * static_cast<float>(tile.samples_down - 1);
     int column = from % tile.samples_right, row = from / tile.samples_right;
@@ -272,6 +285,8 @@ class AreaResampler {
 
 }  // namespace
 
-void resample_areas(const ResampleJob& job) { AreaResampler(job).run(); }
+void resample_areas(const ResampleJob& job) {
+  AreaResampler(job).run();
+}
 
 }  // namespace welkin

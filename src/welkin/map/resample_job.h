@@ -28,14 +28,15 @@ struct ResampleJob {
   Fetch fetch_of(Filter filter) const;
 };
 
-/// directions → rotate → places, for a batch of samples given as (u, v) of a target chart, padded(count) ≤ kBatch.
+/// directions → rotate → places, for a batch of samples given as (u, v) of a target chart, padded(count) ≤
+/// kBatch.
 class Batch {
  public:
   explicit Batch(const ResampleJob& job) : job_(job), pixels_(kBatch * job.channels() + 8) {}
 
-  alignas(64) float u[kBatch], v[kBatch];                           ///< in: places in the target's chart
+  alignas(64) float u[kBatch], v[kBatch];                               ///< in: places in the target's chart
   alignas(64) float chart[kBatch], source_u[kBatch], source_v[kBatch];  ///< places in the source
-  alignas(64) float weight[kBatch];                                 ///< solid angle per (u, v) area of the target
+  alignas(64) float weight[kBatch];  ///< solid angle per (u, v) area of the target
 
   /// Finds the source's places.
   void locate(int target_chart, std::size_t count);

@@ -11,8 +11,8 @@ namespace welkin {
 Image with_safety_border(const Map& map, int index, int border) {
   const int width = map.width(), height = map.height(), channels = map.channels();
   if (border < 0 || border > width || border > height) {
-    throw Error("a border of " + std::to_string(border) + " texels is wider than a chart of " + std::to_string(width) +
-                "×" + std::to_string(height));
+    throw Error("a border of " + std::to_string(border) + " texels is wider than a chart of " +
+                std::to_string(width) + "×" + std::to_string(height));
   }
   const ImageView<const float> chart = map.level.chart(index);
   const auto& p = map.parameterization;

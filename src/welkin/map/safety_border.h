@@ -2,17 +2,19 @@
 
 #include "welkin/map/map.h"
 
-/// Safety borders: charts written with texels of what lies past their edges, for renderers that look them up as plain textures.
+/// Safety borders: charts written with texels of what lies past their edges, for renderers that look them up
+/// as plain textures.
 namespace welkin {
 
-/// Chart `index` with `border` texels around it: the texels of `fill_borders`, and further out the map read bicubically along the
-/// directions that the chart's extended domain has there; the nearest texel where the map shows nothing. Throws Error when the
-/// border is wider than the chart.
+/// Chart `index` with `border` texels around it: the texels of `fill_borders`, and further out the map read
+/// bicubically along the directions that the chart's extended domain has there; the nearest texel where the
+/// map shows nothing. Throws Error when the border is wider than the chart.
 Image with_safety_border(const Map& map, int index, int border);
 
-/// The coarsest level of a mip chain, made of plain 2×2 averages of the bordered chart, that a bilinear look-up anywhere inside
-/// the chart may read: one whole texel of border is left, and no texel mixes border and chart. That is the largest l for which
-/// 2^l divides the border and the chart's side; −1 without a border.
+/// The coarsest level of a mip chain, made of plain 2×2 averages of the bordered chart, that a bilinear
+/// look-up anywhere inside the chart may read: one whole texel of border is left, and no texel mixes border
+/// and chart. That is the largest l for which 2^l divides the border and the chart's side; −1 without a
+/// border.
 int coarsest_level_served(int border, int size);
 
 }  // namespace welkin

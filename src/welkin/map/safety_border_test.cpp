@@ -29,15 +29,15 @@ Image halved(const Image& from) {
   Image to(from.width() / 2, from.height() / 2, 1);
   for (int y = 0; y < to.height(); ++y) {
     for (int x = 0; x < to.width(); ++x) {
-      *to.at(x, y) = 0.25f * (*from.at(2 * x, 2 * y) + *from.at(2 * x + 1, 2 * y) + *from.at(2 * x, 2 * y + 1) +
-                              *from.at(2 * x + 1, 2 * y + 1));
+      *to.at(x, y) = 0.25f * (*from.at(2 * x, 2 * y) + *from.at(2 * x + 1, 2 * y) +
+                              *from.at(2 * x, 2 * y + 1) + *from.at(2 * x + 1, 2 * y + 1));
     }
   }
   return to;
 }
 
-/// Up to the coarsest level served, the innermost ring of the border holds exactly what lies past the edge at that level: on an
-/// octahedron, whose border texels are texels, a level's own border.
+/// Up to the coarsest level served, the innermost ring of the border holds exactly what lies past the edge at
+/// that level: on an octahedron, whose border texels are texels, a level's own border.
 TEST(SafetyBorder, ServesLevelsUpToTheCoarsestOne) {
   constexpr int kSize = 64, kWidth = 8;
   const Map map = random_map("octahedral", kSize);

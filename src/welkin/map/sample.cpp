@@ -12,11 +12,7 @@ void sample(const Map& map, const Level& level, std::span<const Vec3d> direction
             std::span<float> out) {
   const std::size_t channels = static_cast<std::size_t>(level.channels());
   assert(out.size() == directions.size() * channels);
-  const FetchKernels kernels = fetch_kernels(level.channels());
-  const Fetch fetch = filter == Filter::nearest    ? kernels.nearest
-                      : filter == Filter::bilinear ? kernels.bilinear
-                      : filter == Filter::lanczos  ? kernels.lanczos3.held
-                                                   : kernels.bicubic.held;
+  const Fetch fetch = fetch_for(filter, false, level.channels());
   const LevelView view = view_of(level);
   // Places are found in double precision: one direction may be all that is asked for.
   constexpr std::size_t kBatch = 64;

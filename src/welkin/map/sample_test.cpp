@@ -13,8 +13,8 @@ namespace {
 
 using sphere::AnyParameterization;
 
-/// Along the direction of a texel's centre every filter gives that texel, whatever the direction's length; the map's orientation
-/// turns the question.
+/// Along the direction of a texel's centre every filter gives that texel, whatever the direction's length;
+/// the map's orientation turns the question.
 TEST(Sample, GivesTexelsAtTheirCentres) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> value(0, 2);

@@ -1,5 +1,7 @@
 #include "welkin/map/statistics.h"
 
+#include "welkin/map/adjust.h"
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

@@ -10,14 +10,16 @@ namespace welkin {
 namespace fs = std::filesystem;
 using namespace map_file;
 
-io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& layout, const WriteMapOptions& options) {
+io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& layout,
+                          const WriteMapOptions& options) {
   const auto& p = map.parameterization;
   Layout placed = layout_for(layout, p, map.orientation);
   if (!options.faces.empty()) placed = with_faces(placed, p, options.faces);
   const bool pattern = is_pattern(path);
   if (pattern != (placed.kind == LayoutKind::files)) {
-    throw Error(path.string() + (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
-                                         : ": several files are written: put %s in the name, where the face's name goes"));
+    throw Error(path.string() +
+                (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
+                         : ": several files are written: put %s in the name, where the face's name goes"));
   }
   try {
     check_turns(placed, {map.width(), map.height()});
@@ -33,7 +35,8 @@ io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& la
     image.attributes[kOrientationKey] = text_of(map.orientation);
   } else if (p.name() == "openexr-latlong" && options.border == 0) {
     image.envmap = "latlong";
-  } else if (p.name() == "openexr-cube" && layout.name == "openexr" && options.faces.empty() && options.border == 0) {
+  } else if (p.name() == "openexr-cube" && layout.name == "openexr" && options.faces.empty() &&
+             options.border == 0) {
     image.envmap = "cube";
   }
 
@@ -54,16 +57,15 @@ io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& la
   const std::vector<std::string> names = chart_names(p);
   switch (placed.kind) {
     case LayoutKind::files: {
-      io::WriteReport total;
-      for (std::size_t i = 0; i < placed.cells.size(); ++i) {
-        const Image picture = picture_of(placed.cells[i]);
-        const io::WritePart part{"", picture.view(), map.channel_names};
-        const io::WriteReport report = io::write(chart_path(path, names[i]), {&part, 1}, image);
-        total.above += report.above;
-        total.below += report.below;
-        total.not_finite += report.not_finite;
-      }
-      return total;
+      Image picture;
+      return io::write_set(
+          placed.cells.size(),
+          [&](std::size_t i) {
+            picture = picture_of(placed.cells[i]);
+            return io::WriteFile{chart_path(path, names[i]),
+                                 {{"", static_cast<const Image&>(picture).view(), map.channel_names}}};
+          },
+          image);
     }
     case LayoutKind::layers: {
       std::vector<Image> pictures;
@@ -74,7 +76,8 @@ io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& la
       }
       return io::write(path, parts, image);
     }
-    case LayoutKind::picture: break;
+    case LayoutKind::picture:
+      break;
   }
   if (placed.cells.size() == 1 && !placed.cells[0].mirrored && placed.cells[0].quarter_turns == 0 &&
       options.border == 0) {

@@ -25,11 +25,15 @@ Matrix3 transpose(const Matrix3& a) {
 
 namespace {
 
-Vec3d row_of(const Matrix3& a, std::size_t i) { return {a.rows[i][0], a.rows[i][1], a.rows[i][2]}; }
+Vec3d row_of(const Matrix3& a, std::size_t i) {
+  return {a.rows[i][0], a.rows[i][1], a.rows[i][2]};
+}
 
 }  // namespace
 
-double determinant(const Matrix3& a) { return dot(row_of(a, 0), cross(row_of(a, 1), row_of(a, 2))); }
+double determinant(const Matrix3& a) {
+  return dot(row_of(a, 0), cross(row_of(a, 1), row_of(a, 2)));
+}
 
 bool is_orthonormal(const Matrix3& a) {
   const Matrix3 identity;

@@ -33,8 +33,8 @@ Vec3<T> operator*(const Matrix3& m, const Vec3<T>& v) {
   return {row(0), row(1), row(2)};
 }
 
-/// The rotation that turns the world by `yaw` about +Y, after `pitch` about +X, after `roll` about +Z; degrees,
-/// right-handed (positive yaw takes +Z to +X).
+/// The rotation that turns the world by `yaw` about +Y, after `pitch` about +X, after `roll` about +Z;
+/// degrees, right-handed (positive yaw takes +Z to +X).
 Matrix3 rotation_from_yaw_pitch_roll(double yaw, double pitch, double roll);
 
 /// The rotation of the quaternion w + xi + yj + zk, which need not have unit length (but not zero length).

@@ -7,8 +7,8 @@
 /// Functions that double, float and SIMD packs share, so that a formula is written once.
 ///
 /// Generic code calls these unqualified: for double and float they are found here, for an xsimd pack by
-/// argument-dependent look-up in xsimd. Everything is branch-free; a comparison gives a mask (bool or a pack of
-/// bools) and `select(mask, a, b)` chooses.
+/// argument-dependent look-up in xsimd. Everything is branch-free; a comparison gives a mask (bool or a pack
+/// of bools) and `select(mask, a, b)` chooses.
 namespace welkin {
 
 template <class T>
@@ -85,7 +85,8 @@ T log(T a) {
 
 inline constexpr double kPi = std::numbers::pi;
 
-/// A constant of type T from a double: `constant<T>(0.5)` works for packs, whose constructors take their own scalar.
+/// A constant of type T from a double: `constant<T>(0.5)` works for packs, whose constructors take their own
+/// scalar.
 template <class T>
 T constant(double value) {
   if constexpr (std::floating_point<T>) {

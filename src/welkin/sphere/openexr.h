@@ -5,10 +5,10 @@
 
 namespace welkin::sphere {
 
-/// A parameterization whose outermost texel centres, not their outer edges, lie on the edges of its charts, as the OpenEXR
-/// `envmap` attribute declares (ImfEnvmap.h): the first and last column of such a lat-long show the same meridian, its first
-/// and last row the poles. How far the edges are in depends on the size, so that is a parameter. The outer halves of the
-/// outermost texels are not valid.
+/// A parameterization whose outermost texel centres, not their outer edges, lie on the edges of its charts,
+/// as the OpenEXR `envmap` attribute declares (ImfEnvmap.h): the first and last column of such a lat-long
+/// show the same meridian, its first and last row the poles. How far the edges are in depends on the size, so
+/// that is a parameter. The outer halves of the outermost texels are not valid.
 template <class P>
 struct EdgeCentred {
   static constexpr int kCharts = P::kCharts;

@@ -13,18 +13,17 @@ struct ChartPoint {
   T chart, u, v;
 };
 
-/// A parameterization says where a direction lies in a picture. One struct each, written once for double,
-/// float and SIMD packs, branch-free:
+// clang-format off
+/// A parameterization says where a direction lies in a picture. One struct each, written once for double, float and
+/// SIMD packs, branch-free:
 ///
 ///     struct Name {
 ///       static constexpr const char* kName = "name";
-///       static constexpr int kCharts = 1;                // square domains [0,1]²
-///       static constexpr bool kDensityByRow = false;     // solid_angle_density depends on v alone
-///       double aspect() const;                           // width / height of a chart whose texels are
-///       square
+///       static constexpr int kCharts = 1;             // square domains [0,1]²
+///       static constexpr bool kDensityByRow = false;  // solid_angle_density depends on v alone
+///       double aspect() const;                        // width / height of a chart with square texels
 ///
-///       // Unit direction at (u, v). Defined on the chart and, continuously, in a margin of a whole chart
-///       width
+///       // Unit direction at (u, v). Defined on the chart and, continuously, in a margin of a whole chart width
 ///       // around it: past its edge a chart goes on over the sphere, so that a border can be filled
 ///       // (docs/decisions/0004-borders.md). `chart` is a plain number: one chart per call.
 ///       template <class T> Vec3<T> to_sphere(int chart, T u, T v) const;
@@ -38,15 +37,16 @@ struct ChartPoint {
 ///       // Whether (u, v) is a place of the map: false in the corners of a disc.
 ///       template <class T> Mask<T> valid(int chart, T u, T v) const;
 ///
-///       // Whether the map shows this direction: false behind a hemisphere. from_sphere is finite all the
-///       same. template <class T> Mask<T> covers(const Vec3<T>& d) const;
+///       // Whether the map shows this direction: false behind a hemisphere. from_sphere is finite all the same.
+///       template <class T> Mask<T> covers(const Vec3<T>& d) const;
 ///
 ///       // What the covered part of the sphere measures, sr: 4π for a whole world.
 ///       double coverage() const;
 ///     };
 ///
-/// parameterization_test.cpp holds every registered one to: inverse both ways, density against finite
-/// differences, ∫density = coverage, continuity across every edge, and float and SIMD against double.
+/// parameterization_test.cpp holds every registered one to: inverse both ways, density against finite differences,
+/// ∫density = coverage, continuity across every edge, and float and SIMD against double.
+// clang-format on
 template <class P>
 concept Parameterization = requires(const P& p, int chart, double x, const Vec3<double>& d) {
   { P::kName } -> std::convertible_to<const char*>;

@@ -1,11 +1,12 @@
 #include "welkin/sphere/registry.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
+#include <optional>
 
 #include "welkin/base/cpu.h"
 #include "welkin/base/error.h"
+#include "welkin/base/number_text.h"
 #include "welkin/sphere/all.h"
 
 namespace welkin::sphere {
@@ -35,7 +36,9 @@ class AnyParameterization::Model {
 namespace {
 
 template <class P>
-concept HasParameters = requires(P& p) { p.visit_parameters([](auto&&...) {}); };
+concept HasParameters = requires(P& p) {
+  p.visit_parameters([](auto&&...) {});
+};
 
 template <class P>
 class ModelOf final : public AnyParameterization::Model {
@@ -46,9 +49,10 @@ class ModelOf final : public AnyParameterization::Model {
     std::vector<Parameter> list;
     if constexpr (HasParameters<P>) {
       P copy = p_;
-      copy.visit_parameters([&](const char* name, double& value, double lowest, double highest, const char* text) {
-        list.push_back({name, value, lowest, highest, text});
-      });
+      copy.visit_parameters(
+          [&](const char* name, double& value, double lowest, double highest, const char* text) {
+            list.push_back({name, value, lowest, highest, text});
+          });
     }
     return list;
   }
@@ -110,15 +114,6 @@ const std::vector<std::unique_ptr<AnyParameterization::Model>>& models() {
   return all;
 }
 
-std::string shortest(double value) {
-  char text[40];
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value) break;
-  }
-  return text;
-}
-
 void set_parameter(AnyParameterization::Model& model, std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   const std::string name(assignment.substr(0, equals));
@@ -133,13 +128,14 @@ void set_parameter(AnyParameterization::Model& model, std::string_view assignmen
   if (parameter == nullptr) throw Error(unknown_name("parameter of " + model.name(), name, names));
   if (equals == std::string_view::npos) throw Error(model.name() + ": write " + name + "=NUMBER");
   const std::string text(assignment.substr(equals + 1));
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(value >= parameter->lowest && value <= parameter->highest)) {
-    throw Error(model.name() + ": " + name + "=" + text + " is not a number in " + shortest(parameter->lowest) + "…" +
-                shortest(parameter->highest) + " (" + parameter->description + ")");
+  const std::optional<double> value =
+      text == "inf" ? std::numeric_limits<double>::infinity() : parse_number(text);
+  if (!value || !(*value >= parameter->lowest && *value <= parameter->highest)) {
+    throw Error(model.name() + ": " + name + "=" + text + " is not a number in " +
+                number_text(parameter->lowest) + "…" + number_text(parameter->highest) + " (" +
+                parameter->description + ")");
   }
-  model.set(name, value);
+  model.set(name, *value);
 }
 
 }  // namespace
@@ -179,23 +175,35 @@ AnyParameterization AnyParameterization::at_size(int width, int height) const {
   return AnyParameterization(std::shared_ptr<const Model>(std::move(made)));
 }
 
-std::string AnyParameterization::name() const { return model_->name(); }
+std::string AnyParameterization::name() const {
+  return model_->name();
+}
 
 std::string AnyParameterization::spec() const {
   std::string text = model_->name();
   const std::vector<Parameter> now = parameters();
   const std::vector<Parameter> defaults = model_->with_defaults()->parameters();
   for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i].value != defaults[i].value) text += "," + now[i].name + "=" + shortest(now[i].value);
+    if (now[i].value != defaults[i].value) text += "," + now[i].name + "=" + number_text(now[i].value);
   }
   return text;
 }
 
-std::vector<Parameter> AnyParameterization::parameters() const { return model_->parameters(); }
-int AnyParameterization::charts() const { return model_->charts(); }
-double AnyParameterization::aspect() const { return model_->aspect(); }
-double AnyParameterization::coverage() const { return model_->coverage(); }
-bool AnyParameterization::density_by_row() const { return model_->density_by_row(); }
+std::vector<Parameter> AnyParameterization::parameters() const {
+  return model_->parameters();
+}
+int AnyParameterization::charts() const {
+  return model_->charts();
+}
+double AnyParameterization::aspect() const {
+  return model_->aspect();
+}
+double AnyParameterization::coverage() const {
+  return model_->coverage();
+}
+bool AnyParameterization::density_by_row() const {
+  return model_->density_by_row();
+}
 
 bool AnyParameterization::full_charts() const {
   // What isn't full lacks a corner or an edge: discs, triangles, crosses, inset pictures.
@@ -209,14 +217,26 @@ bool AnyParameterization::full_charts() const {
   return true;
 }
 
-Vec3d AnyParameterization::to_sphere(int chart, double u, double v) const { return model_->to_sphere(chart, u, v); }
-ChartPoint<double> AnyParameterization::from_sphere(const Vec3d& d) const { return model_->from_sphere(d); }
+Vec3d AnyParameterization::to_sphere(int chart, double u, double v) const {
+  return model_->to_sphere(chart, u, v);
+}
+ChartPoint<double> AnyParameterization::from_sphere(const Vec3d& d) const {
+  return model_->from_sphere(d);
+}
 double AnyParameterization::solid_angle_density(int chart, double u, double v) const {
   return model_->solid_angle_density(chart, u, v);
 }
-bool AnyParameterization::valid(int chart, double u, double v) const { return model_->valid(chart, u, v); }
-bool AnyParameterization::covers(const Vec3d& d) const { return model_->covers(d); }
-const Kernels& AnyParameterization::kernels() const { return *model_->kernels; }
-const void* AnyParameterization::self() const { return model_->self(); }
+bool AnyParameterization::valid(int chart, double u, double v) const {
+  return model_->valid(chart, u, v);
+}
+bool AnyParameterization::covers(const Vec3d& d) const {
+  return model_->covers(d);
+}
+const Kernels& AnyParameterization::kernels() const {
+  return *model_->kernels;
+}
+const void* AnyParameterization::self() const {
+  return model_->self();
+}
 
 }  // namespace welkin::sphere

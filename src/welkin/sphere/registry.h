@@ -33,7 +33,8 @@ class AnyParameterization {
   std::string spec() const;
   std::vector<Parameter> parameters() const;
 
-  /// The same for charts of this size: where the edges of an edge-centred one lie depends on it. Others don't change.
+  /// The same for charts of this size: where the edges of an edge-centred one lie depends on it. Others don't
+  /// change.
   AnyParameterization at_size(int width, int height) const;
 
   int charts() const;

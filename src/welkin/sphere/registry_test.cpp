@@ -37,14 +37,14 @@ TEST(Registry, RefusesBadSpecsAndSuggestsTheNearest) {
   EXPECT_NE(message_of("octahedrl").find("did you mean 'octahedral'"), std::string::npos);
   EXPECT_NE(message_of("latlong,fov=90").find("takes no parameters"), std::string::npos);
   EXPECT_NE(message_of("fisheye-equidistant,fvo=90").find("did you mean 'fov'"), std::string::npos);
-  for (const char* value : {"fisheye-equidistant,fov=0", "fisheye-equidistant,fov=nan", "fisheye-equidistant,fov=9x",
-                            "fisheye-equidistant,fov="}) {
+  for (const char* value : {"fisheye-equidistant,fov=0", "fisheye-equidistant,fov=nan",
+                            "fisheye-equidistant,fov=9x", "fisheye-equidistant,fov="}) {
     EXPECT_NE(message_of(value).find("is not a number in"), std::string::npos) << value;
   }
 }
 
-/// The kernels are the struct's own formulas in packs: within the float laws of parameterization_precision_test.cpp, here
-/// only that each name got its own, by both instruction sets.
+/// The kernels are the struct's own formulas in packs: within the float laws of
+/// parameterization_precision_test.cpp, here only that each name got its own, by both instruction sets.
 TEST(Registry, KernelsAgreeWithDoubles) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal;

@@ -1,3 +1,5 @@
+#include "welkin/map/adjust.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -5,7 +7,6 @@
 
 #include "welkin/base/parallel.h"
 #include "welkin/map/row_bands.h"
-#include "welkin/map/statistics.h"
 
 namespace welkin {
 namespace {
@@ -89,6 +90,17 @@ std::uint64_t sanitize(Map& map, float replacement) {
     }
   }
   return replaced;
+}
+
+void scale(Map& map, float factor) {
+  std::vector<float> factors;
+  for (const std::string& name : map.channel_names) factors.push_back(name == "A" ? 1.0f : factor);
+  parallel_for(map.charts() * map.height(), [&](int i) {
+    float* value = map.level.chart(i / map.height()).row(i % map.height());
+    for (int x = 0; x < map.width(); ++x) {
+      for (const float each : factors) *value++ *= each;
+    }
+  });
 }
 
 }  // namespace welkin

@@ -1,29 +1,20 @@
-// The command line's POSIX-only code: signals, and whether stderr is a terminal.
-#include "terminal.h"
+#include "progress.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <mutex>
 
-#include "command.h"
-#include "welkin/io/output_file.h"
+#include "welkin/io/process.h"
 
 namespace welkin::cli {
 namespace {
 
 ProgressMode progress_mode = ProgressMode::automatic;
 std::atomic<bool> bar_shown{false};
-
-void end_process(int signal) {
-  io::remove_unfinished_outputs();
-  _exit(128 + signal);
-}
 
 /// One line, redrawn at most ten times a second.
 class Bar {
@@ -53,32 +44,17 @@ class Bar {
 
 }  // namespace
 
-void tell(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
-
-void set_progress_mode(ProgressMode mode) { progress_mode = mode; }
-
-void hold_standard_streams() {
-  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
-    // The lowest free number is taken: the closed one's, as those below are open by now.
-    if (fcntl(descriptor, F_GETFD) < 0) open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-  }
+void tell(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-void remove_outputs_on_signals() {
-  signal(SIGXFSZ, SIG_IGN);
-  struct sigaction action {};
-  action.sa_handler = end_process;
-  for (const int each : {SIGINT, SIGTERM, SIGHUP}) {
-    // A signal that the caller ignores (nohup) stays ignored.
-    struct sigaction before {};
-    sigaction(each, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(each, &action, nullptr);
-  }
+void set_progress_mode(ProgressMode mode) {
+  progress_mode = mode;
 }
 
 Monitor progress_monitor(std::string what) {
-  const bool shown =
-      progress_mode == ProgressMode::always || (progress_mode == ProgressMode::automatic && isatty(STDERR_FILENO) != 0);
+  const bool shown = progress_mode == ProgressMode::always ||
+                     (progress_mode == ProgressMode::automatic && io::standard_error_is_terminal());
   if (!shown) return {};
   auto bar = std::make_shared<Bar>(std::move(what));
   return {[bar](double fraction) { bar->show(fraction); }, nullptr};

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "welkin/base/parallel.h"
+
+namespace welkin::cli {
+
+/// Prints on stderr. A stderr that is closed or full is nobody's concern.
+void tell(const std::string& text);
+
+enum class ProgressMode { automatic, always, never };
+
+/// How progress_monitor shows itself; set once, by main.
+void set_progress_mode(ProgressMode mode);
+
+/// A bar on stderr for work that takes over a second, on a terminal or as `--progress` says.
+Monitor progress_monitor(std::string what);
+
+/// Ends the bar's line, if there is one.
+void end_progress();
+
+}  // namespace welkin::cli

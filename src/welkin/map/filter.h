@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+namespace welkin {
+
+/// How a map is read between its texels.
+enum class Filter {
+  automatic,  ///< magnified: Lanczos, four lobes, 8×8 texels; minified: the mean over the solid angle of the
+              ///< new texel (docs/filtering.md)
+  nearest,    ///< the texel that holds the point
+  bilinear,   ///< 2×2 texels; aliases when minified, as do all below
+  bicubic,    ///< Catmull–Rom, 4×4 texels
+  lanczos,    ///< three lobes, 6×6 texels
+};
+
+Filter filter_from_name(std::string_view name);  ///< `auto`, `nearest`, …; throws Error
+std::string_view name_of(Filter filter);
+
+}  // namespace welkin
