@@ -175,8 +175,8 @@ WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size
       total.not_finite += report.not_finite;
     });
   }
-  for (const auto& [path, file] : written) {
-    for_file(path, [&] { file->commit(); });
+  for (const auto& each : written) {
+    for_file(each.first, [&] { each.second->commit(); });
   }
   return total;
 }
