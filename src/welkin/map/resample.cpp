@@ -31,7 +31,8 @@ void resample(const Map& source, Map& target, const ResampleOptions& options) {
     for (int chart = 0; chart < source.charts(); ++chart) {
       copy_pixels(source.level.chart(chart), target.level.chart(chart));
     }
-    if (!target.parameterization.full_charts()) fill_outside(target, options.fill);
+    if (!target.parameterization.full_charts() && !target.parameterization.filled_to_edges())
+      fill_outside(target, options.fill);
     return;
   }
   const ResampleJob job(source, target, options);

@@ -180,6 +180,7 @@ class AreaResampler {
                                          : job_.fetch_of(Filter::automatic);
     const LevelView& level = levels_[std::min(static_cast<std::size_t>(tile.level), levels_.size() - 1)];
     Sum sum(job_);
+    std::vector<int> beyond;  // texels outside the target's places that show something all the same
     for (int from = 0; from < per_texel; from += kBatch) {
       const int each = std::min(per_texel - from, kBatch);
       const std::size_t count = static_cast<std::size_t>(each) * static_cast<std::size_t>(texels);
@@ -193,10 +194,16 @@ class AreaResampler {
         if (from == 0) sum.clear();
         sum.add(batch.weight + texel * each,
                 values + static_cast<std::size_t>(texel * each) * job_.channels(), each);
-        if (from + each == per_texel) {
+        if (from + each == per_texel && sum.empty() && job_.target.parameterization.filled_to_edges()) {
+          beyond.push_back(x0 + texel);
+        } else if (from + each == per_texel) {
           sum.mean(job_.target.level.chart(tile.chart).at(tile.x + x0 + texel, tile.y + y0));
         }
       }
+    }
+    for (const int x : beyond) {
+      resample_rectangle(job_, job_.fetch_of(Filter::automatic), tile.chart, tile.x + x, tile.y + y0, 1, 1,
+                         batch);
     }
     return texels;
   }
@@ -236,6 +243,8 @@ class AreaResampler {
   class Sum {
    public:
     explicit Sum(const ResampleJob& job) : job_(job), values_(job.channels()) {}
+
+    bool empty() const { return !(total_ > 0); }
 
     void clear() {
       std::fill(values_.begin(), values_.end(), 0.0);

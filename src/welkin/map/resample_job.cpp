@@ -80,7 +80,7 @@ const float* Batch::fetch(Fetch kernel, const LevelView& level, std::size_t coun
 
 const float* Batch::fetch_texels(Fetch kernel, const LevelView& level, int target_chart, std::size_t count) {
   fetch(kernel, level, count);
-  if (!job_.target_is_full) {
+  if (!job_.target_is_full && !job_.target.parameterization.filled_to_edges()) {
     const auto& t = job_.target.parameterization;
     t.kernels().valid(t.self(), target_chart, u, v, mask_, count);
     fill_where_zero(mask_, count);

@@ -46,7 +46,7 @@ class Batch {
   const float* covered(std::size_t count);
   /// The source's values at the places, channels() for each sample: the fill where the source shows nothing.
   const float* fetch(Fetch kernel, const LevelView& level, std::size_t count);
-  /// The same with the fill also where the target has no place.
+  /// The same with the fill also where the target has no place, unless it is filled to its edges.
   const float* fetch_texels(Fetch kernel, const LevelView& level, int target_chart, std::size_t count);
 
  private:

@@ -116,6 +116,11 @@ class Reference {
         total += weight;
         for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
       }
+      if (!(total > 0) && target_.parameterization.filled_to_edges()) {
+        const double u = (x + 0.5) / target_.width(), v = (y + 0.5) / target_.height();
+        look_up(to_source_ * target_.parameterization.to_sphere(chart, u, v), sum);
+        total = 1;
+      }
       float* out = target_.level.chart(chart).at(x, y);
       for (std::size_t c = 0; c < sum.size(); ++c) {
         out[c] = static_cast<float>(total > 0 ? sum[c] / total : fill_[c]);

@@ -1,5 +1,7 @@
 #include "welkin/map/resample.h"
 
+#include "welkin/map/borders.h"
+
 #include <tbb/global_control.h>
 
 #include "welkin/map/map_cases.h"
@@ -222,6 +224,40 @@ TEST(ResampleTest, ProgressRisesToOneAndCancellingThrows) {
     options.monitor.cancelled = [&] { return ++asked == 3; };
     EXPECT_THROW(resample(source, target, options), Cancelled) << name_of(filter);
     EXPECT_EQ(asked, 3) << name_of(filter);
+  }
+}
+
+/// Outside the discs of a paraboloid and the triangles of an octahedron's perspective pictures, the pictures
+/// go on: what their direction shows, so that a renderer may read across the rim.
+TEST(ResampleTest, PicturesThatGoOnShowTheirDirectionsToTheEdge) {
+  const auto smooth_world = [](const Vec3d& d) { return 2 + d.x - 0.5 * d.y + 0.25 * d.x * d.z; };
+  Map source(sphere::AnyParameterization::make("latlong"), 256, 128, 1);
+  for (int y = 0; y < 128; ++y) {
+    for (int x = 0; x < 256; ++x) {
+      const Vec3d d = source.parameterization.to_sphere(0, (x + 0.5) / 256, (y + 0.5) / 128);
+      *source.level.chart(0).at(x, y) = static_cast<float>(smooth_world(d));
+    }
+  }
+  fill_borders(source);
+  for (const char* name : {"paraboloid", "octahedral-perspective"}) {
+    for (const Filter filter : {Filter::bilinear, Filter::automatic}) {
+      for (const int size : {24, 100}) {
+        Map target(sphere::AnyParameterization::make(name), size, size, 1);
+        ResampleOptions options;
+        options.filter = filter;
+        options.fill = {-100};
+        resample(source, target, options);
+        for (int chart = 0; chart < target.charts(); ++chart) {
+          for (int i = 0; i < size; ++i) {
+            for (const auto& [x, y] : {std::pair{i, 0}, {i, size - 1}, {0, i}, {size - 1, i}}) {
+              const Vec3d d = target.parameterization.to_sphere(chart, (x + 0.5) / size, (y + 0.5) / size);
+              EXPECT_NEAR(*target.level.chart(chart).at(x, y), smooth_world(d), 1.5 / size)
+                  << name << " " << x << "," << y;
+            }
+          }
+        }
+      }
+    }
   }
 }
 

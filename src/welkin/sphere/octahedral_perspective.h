@@ -19,6 +19,7 @@ struct OctahedralPerspective : WholeWorld {
   static constexpr const char* kName = "octahedral-perspective";
   static constexpr int kCharts = 8;
   static constexpr bool kDensityByRow = false;
+  static constexpr bool kFilledToEdges = true;
   double aspect() const { return 1.1547005383792517; }
 
   template <class T>

@@ -15,6 +15,7 @@ struct DualParaboloid : WholeWorld {
   static constexpr const char* kName = "paraboloid";
   static constexpr int kCharts = 2;
   static constexpr bool kDensityByRow = false;
+  static constexpr bool kFilledToEdges = true;
   double aspect() const { return 1; }
 
   /// d = (x, y, f)/|(x, y, f)|, whose length is ½(1 + r²).

@@ -21,6 +21,7 @@ struct ChartPoint {
 ///       static constexpr const char* kName = "name";
 ///       static constexpr int kCharts = 1;             // square domains [0,1]²
 ///       static constexpr bool kDensityByRow = false;  // solid_angle_density depends on v alone
+///       static constexpr bool kFilledToEdges = true;  // optional: pictures go on outside the valid places
 ///       double aspect() const;                        // width / height of a chart with square texels
 ///
 ///       // Unit direction at (u, v). Defined on the chart and, continuously, in a margin of a whole chart width

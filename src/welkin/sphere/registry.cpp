@@ -23,6 +23,7 @@ class AnyParameterization::Model {
   virtual double aspect() const = 0;
   virtual double coverage() const = 0;
   virtual bool density_by_row() const = 0;
+  virtual bool filled_to_edges() const = 0;
   virtual Vec3d to_sphere(int chart, double u, double v) const = 0;
   virtual ChartPoint<double> from_sphere(const Vec3d& d) const = 0;
   virtual double solid_angle_density(int chart, double u, double v) const = 0;
@@ -81,6 +82,10 @@ class ModelOf final : public AnyParameterization::Model {
   double aspect() const override { return p_.aspect(); }
   double coverage() const override { return p_.coverage(); }
   bool density_by_row() const override { return P::kDensityByRow; }
+  bool filled_to_edges() const override {
+    if constexpr (requires { P::kFilledToEdges; }) return P::kFilledToEdges;
+    return false;
+  }
   Vec3d to_sphere(int chart, double u, double v) const override { return p_.to_sphere(chart, u, v); }
   ChartPoint<double> from_sphere(const Vec3d& d) const override { return p_.from_sphere(d); }
   double solid_angle_density(int chart, double u, double v) const override {
@@ -203,6 +208,10 @@ double AnyParameterization::coverage() const {
 }
 bool AnyParameterization::density_by_row() const {
   return model_->density_by_row();
+}
+
+bool AnyParameterization::filled_to_edges() const {
+  return model_->filled_to_edges();
 }
 
 bool AnyParameterization::full_charts() const {

@@ -43,6 +43,9 @@ class AnyParameterization {
   bool whole_world() const { return coverage() > 4 * kPi * (1 - 1e-9); }
   bool density_by_row() const;  ///< the density depends on v alone
   bool full_charts() const;     ///< every place of every chart is valid: no discs, no triangles
+  /// Texels outside the valid places show what their direction has, as a paraboloid's corners do, not
+  /// nothing.
+  bool filled_to_edges() const;
 
   // See the concept in parameterization.h.
   Vec3d to_sphere(int chart, double u, double v) const;
