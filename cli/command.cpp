@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include "progress.h"
 #include "welkin/io/output_file.h"
@@ -35,14 +35,21 @@ io::Colour parse_colour(std::string_view option, const std::string& text) {
   throw UsageError(std::string(option) + ": " + unknown_name("transfer function", text, names));
 }
 
+/// A finite number that is all of `text`.
+std::optional<double> finite(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 }  // namespace
 
 CLI::Validator finite_number(double least) {
   const auto check = [least](std::string& text) {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(value)) return "'" + text + "' is not a number";
-    return value < least ? fmt::format("{} is below {}", text, least) : std::string();
+    const std::optional<double> value = finite(text);
+    if (!value) return "'" + text + "' is not a number";
+    return *value < least ? fmt::format("{} is below {}", text, least) : std::string();
   };
   return CLI::Validator(check, "");
 }
@@ -58,12 +65,9 @@ std::string printable(std::string text, std::size_t longest) {
 std::vector<double> parse_numbers(std::string_view option, const std::string& text) {
   std::vector<double> numbers;
   for (const std::string& part : split_list(text)) {
-    char* end = nullptr;
-    const double value = std::strtod(part.c_str(), &end);
-    if (part.empty() || *end != '\0' || !std::isfinite(value)) {
-      throw UsageError(fmt::format("{}: '{}' is not a number", option, part));
-    }
-    numbers.push_back(value);
+    const std::optional<double> value = finite(part);
+    if (!value) throw UsageError(fmt::format("{}: '{}' is not a number", option, part));
+    numbers.push_back(*value);
   }
   return numbers;
 }
@@ -207,35 +211,22 @@ void check_output(const std::string& path, const MapShape& shape, const WriteFla
   if (!flags.faces.empty()) {
     parse_option("--to-faces", [&] { return with_faces(layout, shape.parameterization, flags.faces); });
   }
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const std::vector<std::string> known = io::writable_extensions();
-  if (std::count(known.begin(), known.end(), extension) == 0) {
-    throw UsageError(path + ": " +
-                     (extension.empty()
-                          ? fmt::format("the name has no extension to tell the format by (one of: {})",
-                                        fmt::join(known, ", "))
-                          : unknown_name("extension", extension, known)));
+  try {
+    io::check_extension(path);
+  } catch (const Error& error) {
+    throw UsageError(path + ": " + error.what());
   }
-  const std::size_t place = path.find("%s");
-  const bool pattern = place != std::string::npos;
-  if (pattern != (layout.kind == LayoutKind::files)) {
-    throw UsageError(
-        path + (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
-                        : ": several files are written: put %s in the name, where the face's name goes"));
+  try {
+    check_face_pattern(path, layout);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
   }
-  const auto try_file = [](const std::string& file) {
+  for (const std::filesystem::path& file : files_of(path, shape.parameterization)) {
     try {
       const io::OutputFile unwritten(file);
     } catch (const Error& error) {
-      throw Error(file + ": " + error.what());
+      throw Error(file.string() + ": " + error.what());
     }
-  };
-  if (!pattern) return try_file(path);
-  for (const std::string& name : chart_names(shape.parameterization)) {
-    try_file(std::string(path).replace(place, 2, name));
   }
 }
 

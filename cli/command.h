@@ -57,8 +57,7 @@ ChartSize parse_chart_size(std::string_view option, const std::string& text,
 /// `yaw,pitch,roll` in degrees, `w,x,y,z` (quaternion) or nine numbers (matrix, row by row; orthonormal).
 Matrix3 parse_rotation(std::string_view option, const std::string& text);
 
-/// Options of every command that reads a map, with a prefix for commands that read two (`--from`,
-/// `--from-faces`…).
+/// Options of every command that reads a map.
 struct ReadFlags {
   int border = 0;
   std::string from, faces, convention, colour = "auto", channels;

@@ -92,6 +92,10 @@ const std::vector<Format>& formats() {
   return all;
 }
 
+void check_extension(const std::filesystem::path& path) {
+  format_for_writing(path);
+}
+
 std::vector<std::string> writable_extensions() {
   std::vector<std::string> names;
   for (const Format& format : formats()) {

@@ -122,6 +122,9 @@ struct WriteFile {
 WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
                       const WriteOptions& options = {});
 
+/// Throws Error, without the name itself, when the name's extension is none that can be written.
+void check_extension(const std::filesystem::path& path);
+
 /// Extensions that can be written, without dots: `exr hdr pfm png jpg jpeg tif tiff webp`.
 std::vector<std::string> writable_extensions();
 

@@ -70,6 +70,13 @@ struct LoadedMap {
 /// Opens and reads.
 LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
 
+/// Throws Error, naming the path, when it has a `%s` and the layout is of one file, or the other way round.
+void check_face_pattern(const std::filesystem::path& path, const Layout& layout);
+
+/// The files that a map is written to: one, or one for each chart where `path` has a `%s`.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& path,
+                                            const sphere::AnyParameterization& parameterization);
+
 struct WriteMapOptions {
   io::WriteOptions image;
   std::string faces;  ///< see with_faces

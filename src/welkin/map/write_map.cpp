@@ -10,22 +10,27 @@ namespace welkin {
 namespace fs = std::filesystem;
 using namespace map_file;
 
+void check_face_pattern(const fs::path& path, const Layout& layout) {
+  if (is_pattern(path) == (layout.kind == LayoutKind::files)) return;
+  throw Error(path.string() +
+              (is_pattern(path)
+                   ? ": %s stands for a face's name: write to :faces, as in cube:faces"
+                   : ": several files are written: put %s in the name, where the face's name goes"));
+}
+
+std::vector<fs::path> files_of(const fs::path& path, const sphere::AnyParameterization& parameterization) {
+  if (!is_pattern(path)) return {path};
+  std::vector<fs::path> files;
+  for (const std::string& name : chart_names(parameterization)) files.push_back(chart_path(path, name));
+  return files;
+}
+
 io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& layout,
                           const WriteMapOptions& options) {
   const auto& p = map.parameterization;
   Layout placed = layout_for(layout, p, map.orientation);
   if (!options.faces.empty()) placed = with_faces(placed, p, options.faces);
-  const bool pattern = is_pattern(path);
-  if (pattern != (placed.kind == LayoutKind::files)) {
-    throw Error(path.string() +
-                (pattern ? ": %s stands for a face's name: write to :faces, as in cube:faces"
-                         : ": several files are written: put %s in the name, where the face's name goes"));
-  }
-  try {
-    check_turns(placed, {map.width(), map.height()});
-  } catch (const Error& error) {
-    throw Error(path.string() + ": " + error.what());
-  }
+  check_face_pattern(path, placed);
   io::WriteOptions image = options.image;
   image.attributes[kShapeKey] = MapShape{p, layout}.text();
   image.attributes[kChartKey] = text_of(ChartSize{map.width(), map.height()});
