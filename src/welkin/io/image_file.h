@@ -18,16 +18,20 @@
 namespace welkin::io {
 
 /// How one value of a pixel is stored in the file. In memory every value is a 32-bit float.
-enum class PixelType { uint8, uint16, uint32, half, float32 };
+/// rgb9e5 and r11g11b10 pack three values that are never negative into 32 bits: nine bits each with an
+/// exponent in common, and small floats of 6, 6 and 5 bits of mantissa.
+enum class PixelType { uint8, uint16, uint32, half, float32, rgb9e5, r11g11b10 };
 
-/// `uint8`, `uint16`, `uint32`, `half`, `float`.
+/// `uint8`, `uint16`, `uint32`, `half`, `float`, `rgb9e5`, `r11g11b10`.
 std::string_view name_of(PixelType type);
 
 /// The transfer function of stored colour values. Linear is radiance; sRGB is IEC 61966-2-1, made linear on
 /// reading. Alpha is always linear.
 enum class Colour { automatic, linear, srgb };
 
-/// One picture of a file: the only one in most formats, one of many in a multi-part EXR or a multi-page TIFF.
+/// One picture of a file: the only one in most formats, one of many in a multi-part EXR, a multi-page TIFF,
+/// or a texture with levels. Pictures of a texture come level by level, then layer by layer, then face by
+/// face.
 struct PartInfo {
   std::string name;  ///< EXR part name; empty where the format has none
   int width = 0;
@@ -36,12 +40,18 @@ struct PartInfo {
       channels;  ///< in the order that reading them all gives: R G B A first, then others
   PixelType type = PixelType::float32;
   std::string compression;  ///< `none`, `zip`, `rle`, `deflate`, `jpeg`…
+  int level = 0;            ///< of a mip pyramid; 0 is the finest
+  int layer = 0;            ///< of an array texture
+  int face = 0;             ///< of a cube texture: +X −X +Y −Y +Z −Z
 };
 
 /// What a file says of itself, known before any pixel is decoded.
 struct FileInfo {
-  std::string format;  ///< `exr`, `hdr`, `pfm`, `png`, `jpeg`, `tiff`, `webp`
+  std::string format;  ///< `exr`, `hdr`, `ktx2`, `pfm`, `png`, `jpeg`, `tiff`, `webp`
   std::vector<PartInfo> parts;
+  int levels = 1;                  ///< of a mip pyramid
+  int layers = 0;                  ///< of an array texture; 0 when it is none
+  int faces = 1;                   ///< 6 of a cube texture
   Colour colour = Colour::linear;  ///< the transfer function that reading will undo
   std::map<std::string, std::string>
       attributes;  ///< text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
@@ -88,6 +98,9 @@ struct WritePart {
   std::string name;
   ImageView<const float> image;
   std::vector<std::string> channels;
+  int level = 0;  ///< level, layer and face as in PartInfo, in formats of textures
+  int layer = 0;
+  int face = 0;
 };
 
 struct WriteOptions {
