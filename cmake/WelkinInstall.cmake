@@ -18,7 +18,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/welkin/ DESTINATION ${include_destin
         PATTERN "*_cases.h" EXCLUDE
         PATTERN "*_job.h" EXCLUDE
         PATTERN "*test*" EXCLUDE
-        REGEX "/src/welkin/(io|synth)$" EXCLUDE)
+        REGEX "/src/welkin/(io|synth)$" EXCLUDE
+        REGEX "/lobe/(all|angle|blinn|charlie|ggx|kernels|lambert|panels|phong|table|table_file|table_points|von_mises_fisher)\\.h$" EXCLUDE
+        REGEX "/prefilter/(bright_points|buffer|fft|kernels|lanes|legendre|moments|sampled_lobe|spline_grid|tables|widen)\\.h$" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/io/image_file.h DESTINATION ${include_destination}/io)
 install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/synth/synth.h DESTINATION ${include_destination}/synth)
 
@@ -39,7 +41,7 @@ install(FILES ${PROJECT_BINARY_DIR}/welkin-config.cmake ${PROJECT_BINARY_DIR}/we
 install(EXPORT welkin-targets NAMESPACE welkin:: DESTINATION ${package_destination})
 
 # pkg-config. A static library makes its user link what it uses, so `pkg-config --libs` names it without `--static` too.
-set(link_only OpenEXR Imath libpng libjpeg libtiff-4 libwebp libdeflate zlib)
+set(link_only OpenEXR Imath libpng libjpeg libtiff-4 libwebp libdeflate libzstd zlib)
 list(JOIN link_only " " link_only)
 set(pc_requires "tbb")
 set(pc_libs "-L\${libdir} -lwelkin")

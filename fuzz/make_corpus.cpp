@@ -24,6 +24,8 @@ struct Seeds {
   std::vector<int> channels;
   std::vector<int> qualities = {95};
   bool parts = false;
+  bool levels = false;
+  bool cubes = false;
 };
 
 const std::vector<Seeds>& all_seeds() {
@@ -35,8 +37,11 @@ const std::vector<Seeds>& all_seeds() {
        {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "dwaa"},
        {1, 3, 4},
        {95},
+       true,
        true},
       {"hdr", "hdr", {float32}, {"rle", "none"}, {1, 3}},
+      {"ktx2", "ktx2", {half, float32}, {"none", "zstd"}, {1, 3, 4}, {95}, false, true, true},
+      {"ktx2", "ktx2", {rgb9e5, r11g11b10}, {"none", "zstd"}, {1, 3}, {95}, false, true, true},
       {"pfm", "pfm", {float32}, {"none"}, {1, 3}},
       {"png", "png", {uint8, uint16}, {"zip", "none"}, {1, 2, 3, 4}},
       {"jpeg", "jpg", {uint8}, {""}, {1, 3}, {30, 95}},
@@ -86,12 +91,26 @@ void write_seeds(const fs::path& root, const Seeds& seeds) {
             parts.push_back(part);
             parts.back().name = "second";
           }
+          const Image coarse = test_picture(8, 4, channels), square = test_picture(4, 4, channels);
+          if (seeds.levels && count % 3 == 1) {
+            parts.push_back(part);
+            parts.back().image = coarse.view();
+            parts.back().level = 1;
+          }
+          if (seeds.cubes && count % 3 == 2) {
+            parts.assign(6, part);
+            for (int face = 0; face < 6; ++face) {
+              parts[static_cast<std::size_t>(face)].image = square.view();
+              parts[static_cast<std::size_t>(face)].face = face;
+            }
+          }
           io::WriteOptions options;
           options.type = type;
           options.compression = compression;
           options.quality = quality;
           if (count % 2 == 0) options.attributes = {{"Author", "nobody"}};
-          io::write(root / seeds.folder / (std::to_string(count++) + "." + seeds.extension), parts, options);
+          const std::string name = std::string(io::name_of(type)) + std::to_string(count++);
+          io::write(root / seeds.folder / (name + "." + seeds.extension), parts, options);
         }
       }
     }

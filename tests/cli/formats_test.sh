@@ -23,6 +23,10 @@ exr|half|none rle zips zip piz pxr24|5e-4
 exr|half|b44 b44a|0.03
 exr|half float|dwaa dwab|0.02
 hdr|float|rle none|4e-3
+ktx2|float|none zstd|0
+ktx2|half|none zstd|5e-4
+ktx2|rgb9e5|none zstd|2e-3
+ktx2|r11g11b10|none zstd|2e-2
 pfm|float|none|0
 png|uint8|zip none|5e-3
 png|uint16|zip none|3e-5
@@ -52,7 +56,7 @@ awk "BEGIN { exit !(4 * $fine < $rough) }" || fail "quality 98 errs by $fine, qu
 
 # One and four channels. Alpha is linear, and goes where a format has it.
 must convert map.exr red.exr --channels R
-for extension in exr hdr pfm png tif jpg webp; do
+for extension in exr hdr ktx2 pfm png tif jpg webp; do
   run convert red.exr "one.$extension"
   checks=$((checks + 1))
   if ((status == 0)); then
@@ -74,19 +78,21 @@ loses() { # loses PATTERN ARGUMENT…
 must synth sun sun.exr --size 64 --angle 20
 for extension in png jpg webp; do loses "copy.$extension: [0-9]+ values were above" convert sun.exr "copy.$extension"; done
 loses "copy.exr: [0-9]+ values were above" convert sun.exr copy.exr --type half
+for type in half rgb9e5 r11g11b10; do loses "copy.ktx2: [0-9]+ values were above" convert sun.exr copy.ktx2 --type $type; done
 must convert map.exr negative.exr --scale -1
 for extension in hdr png jpg webp; do loses "copy.$extension: 6144 values were negative" convert negative.exr "copy.$extension"; done
-for extension in exr pfm tif; do must convert negative.exr "copy.$extension"; done
+for type in rgb9e5 r11g11b10; do loses "copy.ktx2: 6144 values were negative" convert negative.exr copy.ktx2 --type $type; done
+for extension in exr ktx2 pfm tif; do must convert negative.exr "copy.$extension"; done
 
 # Values survive exactly where the type can: large, small and negative ones.
 must convert sun.exr bright.exr --scale 1e30
-for extension in exr pfm tif; do
+for extension in exr ktx2 pfm tif; do
   must convert bright.exr "copy.$extension"
   same bright.exr "copy.$extension" 0
 done
 
 # Metadata restores parameterization, parameters, layout, faces and convention.
-for extension in exr png tif hdr jpg; do
+for extension in exr ktx2 png tif hdr jpg; do
   must synth axes "kept.$extension" --to fisheye-equidistant,fov=220 --size 32
   matches '"parameterization": "fisheye-equidistant,fov=220"' info "kept.$extension" --header --json
   matches '"reason": "declared' info "kept.$extension" --header --json

@@ -54,6 +54,9 @@ std::size_t size_of(PixelType type) {
     case PixelType::uint32:
     case PixelType::float32:
       return 4;
+    case PixelType::rgb9e5:
+    case PixelType::r11g11b10:
+      break;
   }
   assert(false);
   return 0;
@@ -107,6 +110,9 @@ void PixelDecoder::decode(const void* stored, std::span<const int> channels, int
       return convert<float>(
           bytes, srgb_.size(), channels, count, out, step,
           [&](std::size_t channel, float x) { return srgb_[channel] != 0 ? linear(channel, x) : x; });
+    case PixelType::rgb9e5:
+    case PixelType::r11g11b10:
+      assert(false);
   }
 }
 

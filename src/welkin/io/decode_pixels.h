@@ -14,7 +14,8 @@ namespace welkin::io {
 /// are said to be sRGB.
 class PixelDecoder {
  public:
-  /// `srgb` says of each stored channel whether it is sRGB encoded; there are srgb.size() values per pixel.
+  /// Any type but the packed ones. `srgb` says of each stored channel whether it is sRGB encoded; there are
+  /// srgb.size() values per pixel.
   PixelDecoder(PixelType type, std::vector<bool> srgb);
 
   /// Decodes `count` interleaved pixels at `stored` (native byte order, any alignment). Stored channel
@@ -33,7 +34,7 @@ class PixelDecoder {
   std::vector<const float*> tables_;  ///< uint8 and uint16: one per stored channel
 };
 
-/// Bytes of one stored value.
+/// Bytes of one stored value; of none that is packed with others.
 std::size_t size_of(PixelType type);
 
 /// For each of `names` whether it is sRGB encoded when the colour of its file is `colour`: alpha (`A`) never

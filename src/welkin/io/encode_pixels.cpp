@@ -116,6 +116,9 @@ void PixelEncoder::encode(const float* in, int image_channels, int count, std::b
       case PixelType::float32:
         encode_as(float{}, [&](float x) { return srgb ? static_cast<float>(linear_to_srgb(x)) : x; });
         break;
+      case PixelType::rgb9e5:
+      case PixelType::r11g11b10:
+        assert(false);
     }
   }
 }

@@ -15,8 +15,8 @@ namespace welkin::io {
 /// clipped.
 class PixelEncoder {
  public:
-  /// Stored channel k holds the image's channel order[k], sRGB encoded where srgb[k]. One that is stored more
-  /// than once (grey as R G B) is counted once.
+  /// Any type but the packed ones. Stored channel k holds the image's channel order[k], sRGB encoded where
+  /// srgb[k]. One that is stored more than once (grey as R G B) is counted once.
   PixelEncoder(PixelType type, std::vector<int> order, std::vector<bool> srgb);
 
   std::size_t pixel_bytes() const;

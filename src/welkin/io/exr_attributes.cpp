@@ -74,7 +74,8 @@ constexpr std::array kStructural{std::string_view("channels"),
                                  std::string_view("type"),
                                  std::string_view("version"),
                                  std::string_view("view"),
-                                 kOwnWindow};
+                                 kOwnWindow,
+                                 kOwnLevels};
 
 constexpr std::array kStandardNumbers{std::string_view("adoptedNeutral"),
                                       std::string_view("altitude"),
@@ -166,6 +167,10 @@ bool AttributeParser::parse_structure(std::string_view name, std::string_view ty
   } else if (name == "type") {
     expect("string");
     part_type_ = *take_text(type, value);
+  } else if (name == kOwnLevels) {
+    expect("int");
+    part_.own_levels = value.take<std::int32_t>();
+    if (part_.own_levels < 1) value.fail("attribute '" + std::string(name) + "' is not a number of levels");
   } else if (name == "chunkCount") {
     expect("int");
     chunk_count_ = value.take<std::uint32_t>();

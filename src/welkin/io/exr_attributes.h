@@ -17,6 +17,10 @@ bool is_reserved(std::string_view attribute);
 /// each part's own size is here, and the display window is the largest.
 inline constexpr std::string_view kOwnWindow = "welkinWindow";
 
+/// Name of our own attribute, an int: how many levels of a mip pyramid its writer was given. The others were
+/// made, because a pyramid goes down to 1×1.
+inline constexpr std::string_view kOwnLevels = "welkinLevels";
+
 /// Fills a part from its header's attributes, one by one.
 class AttributeParser {
  public:

@@ -43,13 +43,16 @@ std::uint64_t tiles_along(std::int64_t size, int tile) {
   return (static_cast<std::uint64_t>(size) - 1) / static_cast<std::uint64_t>(tile) + 1;
 }
 
+std::int64_t size_of_level(std::int64_t size, int level, bool round_up) {
+  const std::int64_t up = round_up ? (std::int64_t{1} << level) - 1 : 0;
+  return std::max<std::int64_t>((size + up) >> level, 1);
+}
+
 /// Tiles along one axis, level by level, until `levels` of them.
 std::vector<std::uint64_t> tiles_of_levels(std::int64_t size, int tile, int levels, bool round_up) {
   std::vector<std::uint64_t> tiles;
-  for (int level = 0; level < levels; ++level) {
-    const std::int64_t up = round_up ? (std::int64_t{1} << level) - 1 : 0;
-    tiles.push_back(tiles_along(std::max<std::int64_t>((size + up) >> level, 1), tile));
-  }
+  for (int level = 0; level < levels; ++level)
+    tiles.push_back(tiles_along(size_of_level(size, level, round_up), tile));
   return tiles;
 }
 
@@ -212,6 +215,19 @@ Window Part::chunk_window(std::uint64_t index) const {
   return intersection(whole, data);
 }
 
+int Part::levels() const {
+  if (deep || !tiled || level_mode != LevelMode::mipmap || data != display || luminance_chroma()) return 1;
+  const int all = level_count(std::max(data.width(), data.height()), round_up);
+  return own_levels > 0 ? std::min(own_levels, all) : all;
+}
+
+Window Part::level_window(int level) const {
+  const auto width = size_of_level(data.width(), level, round_up),
+             height = size_of_level(data.height(), level, round_up);
+  return {data.min_x, data.min_y, static_cast<int>(data.min_x + width - 1),
+          static_cast<int>(data.min_y + height - 1)};
+}
+
 bool Part::luminance_chroma() const {
   const auto sampled = [&](std::string_view name, int step) {
     return std::any_of(channels.begin(), channels.end(), [&](const StoredChannel& c) {
@@ -219,6 +235,10 @@ bool Part::luminance_chroma() const {
     });
   };
   return sampled("Y", 1) && sampled("RY", 2) && sampled("BY", 2);
+}
+
+int level_count(int width, int height) {
+  return level_count(std::int64_t{std::max(width, height)}, false);
 }
 
 bool is_exr(std::span<const std::byte> bytes) {

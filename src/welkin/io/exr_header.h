@@ -57,6 +57,7 @@ struct Part {
   std::uint64_t chunk_count = 0;                  ///< its entries, all levels
   std::map<std::string, std::string> attributes;  ///< text and simple numbers; no structural ones
   std::optional<std::string> envmap;
+  int own_levels = 0;  ///< of a mip pyramid, those that its writer was given; 0 when that is not said
 
   std::size_t bytes_per_pixel() const;
   int chunk_width() const;   ///< of level 0: the tile's, or the data window's
@@ -69,6 +70,11 @@ struct Part {
   }
   /// Pixels of level 0's chunk number `index`, row by row.
   Window chunk_window(std::uint64_t index) const;
+  /// Levels of a mip pyramid, those after own_levels left out. 1 when it is none, or when its levels cannot
+  /// be placed: the data window is not the display window, or colour is luminance and chroma.
+  int levels() const;
+  /// Pixels of a level: level 0's first, and its size halved time and again.
+  Window level_window(int level) const;
   /// Y with RY and BY at half the resolution: luminance and chroma in place of R G B.
   bool luminance_chroma() const;
 
@@ -81,6 +87,9 @@ struct File {
   bool multi_part = false;
   std::vector<Part> parts;
 };
+
+/// Levels of a mip pyramid down to 1×1, when sizes are rounded down.
+int level_count(int width, int height);
 
 bool is_exr(std::span<const std::byte> bytes);
 

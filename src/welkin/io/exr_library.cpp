@@ -52,7 +52,8 @@ void check_same(const Part& part, const Imf::Header& header) {
     const Imf::TileDescription& tiles = header.tileDescription();
     same = static_cast<int>(tiles.xSize) == part.tile_width &&
            static_cast<int>(tiles.ySize) == part.tile_height &&
-           static_cast<int>(tiles.mode) == static_cast<int>(part.level_mode);
+           static_cast<int>(tiles.mode) == static_cast<int>(part.level_mode) &&
+           (tiles.roundingMode == Imf::ROUND_UP) == part.round_up;
   }
   std::size_t index = 0;
   for (auto i = header.channels().begin(); same && i != header.channels().end(); ++i, ++index) {
@@ -91,8 +92,19 @@ struct LibraryPart::State {
     }
   }
 
+  /// The row of chunks that is number `row` of the level.
+  Window chunk_row(int level, std::uint64_t row) const {
+    Window window = part.chunk_window(row * part.columns());
+    window.max_x = part.data.max_x;
+    if (level == 0) return window;
+    const Window whole = part.level_window(level);
+    if (window_of(tiles->dataWindowForLevel(level)) != whole) throw Error("the header contradicts itself");
+    // The level's tiles lie where those of level 0 do, and there are no more of them.
+    return intersection(window, whole);
+  }
+
   /// Decodes the rows of `window` to texels of `channels` values, the first at `to`.
-  void read(std::uint64_t row, const Window& window, const std::vector<int>& channels, float* to,
+  void read(int level, std::uint64_t row, const Window& window, const std::vector<int>& channels, float* to,
             std::ptrdiff_t row_stride) {
     Imf::FrameBuffer frame;
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -104,8 +116,7 @@ struct LibraryPart::State {
     }
     if (tiles) {
       tiles->setFrameBuffer(frame);
-      tiles->readTiles(0, static_cast<int>(part.columns()) - 1, static_cast<int>(row), static_cast<int>(row),
-                       0);
+      tiles->readTiles(0, tiles->numXTiles(level) - 1, static_cast<int>(row), static_cast<int>(row), level);
     } else {
       lines->setFrameBuffer(frame);
       lines->readPixels(window.min_y, window.max_y);
@@ -119,10 +130,9 @@ LibraryPart::LibraryPart(std::span<const std::byte> bytes, const std::string& na
 
 LibraryPart::~LibraryPart() = default;
 
-void LibraryPart::read(std::uint64_t row, const Destination& destination) {
+void LibraryPart::read(int level, std::uint64_t row, const Destination& destination) {
   const Part& part = state_->part;
-  Window window = part.chunk_window(row * part.columns());
-  window.max_x = part.data.max_x;
+  const Window window = state_->chunk_row(level, row);
   const Window seen = intersection(window, part.display);
   if (seen.empty()) return;
 
@@ -130,7 +140,7 @@ void LibraryPart::read(std::uint64_t row, const Destination& destination) {
   float* const first = out.at(seen.min_x - part.display.min_x, seen.min_y - part.display.min_y);
   const std::set<int> different(destination.channels.begin(), destination.channels.end());
   if (seen == window && different.size() == destination.channels.size()) {
-    state_->read(row, window, destination.channels, first, out.row_stride);
+    state_->read(level, row, window, destination.channels, first, out.row_stride);
     return;
   }
 
@@ -141,7 +151,7 @@ void LibraryPart::read(std::uint64_t row, const Destination& destination) {
   std::vector<float>& buffer = state_->buffer;
   buffer.resize(width * height * stored.size());
   const auto line = static_cast<std::ptrdiff_t>(width * stored.size());
-  state_->read(row, window, stored, buffer.data(), line);
+  state_->read(level, row, window, stored, buffer.data(), line);
   for (std::size_t c = 0; c < destination.channels.size(); ++c) {
     const auto at = std::find(stored.begin(), stored.end(), destination.channels[c]) - stored.begin();
     for (int y = 0; y < seen.height(); ++y) {

@@ -23,9 +23,9 @@ class LibraryPart {
   LibraryPart(std::span<const std::byte> bytes, const std::string& name, const File& file, std::size_t part);
   ~LibraryPart();
 
-  /// Decodes one row of chunks (`row` of Part::rows()): straight into `destination` when all of it is seen,
-  /// through a buffer when the display window crops it. Throws std::exception.
-  void read(std::uint64_t row, const Destination& destination);
+  /// Decodes one row of chunks of a level (of Part::levels()): straight into `destination` when all of it is
+  /// seen, through a buffer when the display window crops it. Throws std::exception.
+  void read(int level, std::uint64_t row, const Destination& destination);
 
  private:
   struct State;

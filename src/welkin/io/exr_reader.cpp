@@ -59,17 +59,23 @@ std::string text_of(const Window& w) {
          ", " + std::to_string(w.max_y) + ")";
 }
 
-std::vector<std::string> notes_on(const Part& part) {
+std::string name_of_level(const Part& part, int level) {
+  if (part.levels() == 1) return part.name;
+  return (part.name.empty() ? "" : part.name + " ") + "level " + std::to_string(level);
+}
+
+std::vector<std::string> notes_on(const Part& part, int levels) {
   std::vector<std::string> notes;
   if (part.deep) {
     notes.push_back("deep data, which cannot be read");
     return notes;
   }
   if (part.tiled) {
-    constexpr std::array<const char*, 3> kLevels{"", ", mipmapped (level 0 is read)",
-                                                 ", ripmapped (level 0 is read)"};
+    constexpr std::array<const char*, 3> kModes{"", ", mipmapped", ", ripmapped"};
+    const bool one_of_many = part.level_mode != LevelMode::one && levels == 1;
     notes.push_back("tiles of " + std::to_string(part.tile_width) + "x" + std::to_string(part.tile_height) +
-                    kLevels[static_cast<std::size_t>(part.level_mode)]);
+                    kModes[static_cast<std::size_t>(part.level_mode)] +
+                    (one_of_many ? " (level 0 is read)" : ""));
   }
   if (part.data != part.display) {
     const bool cropped = intersection(part.data, part.display) != part.data;
@@ -86,32 +92,44 @@ class ExrReader final : public Reader {
   explicit ExrReader(const Source& source) : bytes_(source.bytes), name_(source.name), file_(parse(source)) {
     info_.format = "exr";
     info_.bytes = source.bytes.size();
+    // Parts of a file that has several need not have as many levels, so only their finest are pictures.
+    if (!file_.multi_part) info_.levels = file_.parts[0].levels();
     for (const Part& part : file_.parts) {
-      info_.parts.push_back({part.name, static_cast<int>(part.display.width()),
-                             static_cast<int>(part.display.height()), reported_names(part),
-                             reported_type(part), std::string(name_of(part.compression))});
+      for (int level = 0; level < info_.levels; ++level) {
+        const Window window = level == 0 ? part.display : part.level_window(level);
+        info_.parts.push_back({file_.multi_part ? part.name : name_of_level(part, level),
+                               static_cast<int>(window.width()), static_cast<int>(window.height()),
+                               reported_names(part), reported_type(part),
+                               std::string(name_of(part.compression)), level});
+      }
       info_.attributes.insert(part.attributes.begin(), part.attributes.end());
       if (!info_.envmap) info_.envmap = part.envmap;
       const std::string prefix = file_.multi_part ? "part '" + part.name + "': " : "";
-      for (const std::string& note : notes_on(part)) info_.notes.push_back(prefix + note);
+      for (const std::string& note : notes_on(part, info_.levels)) info_.notes.push_back(prefix + note);
     }
   }
 
-  void read(std::size_t part_index, std::span<const int> channels, ImageView<float> out) override {
-    assert(part_index < file_.parts.size());
+  void read(std::size_t picture, std::span<const int> channels, ImageView<float> out) override {
+    assert(picture < info_.parts.size());
+    const PartInfo& info = info_.parts[picture];
+    const std::size_t part_index = info_.levels > 1 ? 0 : picture;
     const Part& part = file_.parts[part_index];
-    assert(out.width == part.display.width() && out.height == part.display.height());
+    assert(out.width == info.width && out.height == info.height);
     assert(static_cast<std::size_t>(out.channels) == channels.size());
     if (part.deep) throw Error(name_ + ": deep data cannot be read; flatten it to an ordinary image first");
 
     Destination destination{out, {}};
     const std::vector<int> order = reported_order(part);
     for (const int channel : channels) {
-      assert(channel >= 0 && static_cast<std::size_t>(channel) < info_.parts[part_index].channels.size());
+      assert(channel >= 0 && static_cast<std::size_t>(channel) < info.channels.size());
       destination.channels.push_back(part.luminance_chroma() ? channel
                                                              : order[static_cast<std::size_t>(channel)]);
     }
 
+    if (info.level > 0) {
+      read_level(part, info.level, destination);
+      return;
+    }
     clear_outside(part, out);
     if (part.luminance_chroma()) {
       read_luminance(part, destination);
@@ -182,8 +200,26 @@ class ExrReader final : public Reader {
           chunk_bytes(bytes_, file_, part_index, row * part.columns() + i);
         auto& reader = readers.local();
         if (!reader) reader = std::make_unique<LibraryPart>(bytes_, name_, file_, part_index);
-        reader->read(row, destination);
+        reader->read(0, row, destination);
       });
+    });
+  }
+
+  /// Part 0 is the only one of a file with levels.
+  void read_level(const Part& part, int level, const Destination& destination) const {
+    const auto height = static_cast<std::uint64_t>(part.level_window(level).height());
+    const auto rows = (height - 1) / static_cast<std::uint64_t>(part.tile_height) + 1;
+    tbb::enumerable_thread_specific<std::unique_ptr<LibraryPart>> readers;
+    tbb::parallel_for(std::uint64_t{0}, rows, [&](std::uint64_t row) {
+      try {
+        at_row(part.chunk_window(row * part.columns()).min_y, [&] {
+          auto& reader = readers.local();
+          if (!reader) reader = std::make_unique<LibraryPart>(bytes_, name_, file_, 0);
+          reader->read(level, row, destination);
+        });
+      } catch (const Error& error) {
+        throw Error(std::string(error.what()) + " (level " + std::to_string(level) + ")");
+      }
     });
   }
 

@@ -175,11 +175,12 @@ inline std::uint32_t bits(float value) {
   return std::bit_cast<std::uint32_t>(value);
 }
 
-/// Every texel of every channel, bit for bit.
+/// Every texel of every channel, bit for bit; of levels, the finest.
 inline void expect_equals_library(const std::string& path) {
   SCOPED_TRACE(path);
   const auto reader = open(std::filesystem::path(path));
   for (std::size_t part = 0; part < reader->info().parts.size(); ++part) {
+    if (reader->info().parts[part].level > 0) continue;
     const Image image = read_all(*reader, part);
     const auto& names = reader->info().parts[part].channels;
     for (std::size_t c = 0; c < names.size(); ++c) {

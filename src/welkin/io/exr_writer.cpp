@@ -26,6 +26,7 @@
 #include "welkin/io/exr_attributes.h"
 #include "welkin/io/exr_convert.h"
 #include "welkin/io/exr_header.h"
+#include "welkin/io/exr_levels.h"
 #include "welkin/io/exr_library.h"
 #include "welkin/io/exr_pack.h"
 
@@ -89,6 +90,8 @@ StoredType stored_type(const WriteOptions& options) {
       return StoredType::uint32;
     case PixelType::uint8:
     case PixelType::uint16:
+    case PixelType::rgb9e5:
+    case PixelType::r11g11b10:
       break;
   }
   throw Error("EXR has no pixel type " + std::string(io::name_of(type)) + " (one of: half, float, uint32)");
@@ -209,18 +212,22 @@ WriteReport write_by_library(Imf::OStream& stream, const std::vector<Imf::Header
 
 }  // namespace
 
-WriteReport write_exr(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
-  assert(!parts.empty());
+WriteReport write_exr(OutputFile& file, std::span<const WritePart> all_parts, const WriteOptions& options) {
+  assert(!all_parts.empty());
   const StoredType type = stored_type(options);
+  std::vector<WritePart> levels;
+  if (are_levels(all_parts)) levels = ordered_levels(all_parts);
+  const std::span<const WritePart> parts = levels.empty() ? all_parts : std::span(levels).first(1);
   check_names(parts);
   const Compression compression =
       options.compression.empty() ? Compression::zip : compression_named(options.compression);
   const std::vector<Imf::Header> headers = headers_of(parts, options, type, compression);
   try {
     FileStream stream(file);
-    const WriteReport report = packs_here(compression)
-                                   ? write_packed(stream, headers, parts, type, compression)
-                                   : write_by_library(stream, headers, parts, type);
+    const WriteReport report =
+        !levels.empty()           ? write_levels(stream, headers[0], levels, type, library_threads())
+        : packs_here(compression) ? write_packed(stream, headers, parts, type, compression)
+                                  : write_by_library(stream, headers, parts, type);
     stream.flush();
     return report;
   } catch (const Error&) {

@@ -10,7 +10,7 @@ namespace welkin::io::exr {
 /// default), piz, pxr24, b44, b44a, dwaa and dwab, the last two at level 9·(100 − quality), which is
 /// OpenEXR's 45 for quality 95. Two or more parts need unique names and make a multi-part file; parts of
 /// unequal size share a display window as large as the largest, and keep their own in the attribute
-/// `welkinWindow`.
+/// `welkinWindow`. Parts with levels make a mipmapped file of tiles (exr_levels.h).
 ///
 /// Attributes are written as strings, but for the names that EXR gives another type, which are left out.
 /// In half, finite values beyond ±65504 are clipped to it and counted in WriteReport::above. In uint32,

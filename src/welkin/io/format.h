@@ -27,6 +27,7 @@ const std::vector<Format>& formats();
 // One per file of this room.
 Format exr_format();
 Format hdr_format();
+Format ktx2_format();
 Format pfm_format();
 Format png_format();
 Format jpeg_format();

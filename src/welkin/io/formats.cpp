@@ -81,14 +81,18 @@ std::string_view name_of(PixelType type) {
       return "half";
     case PixelType::float32:
       return "float";
+    case PixelType::rgb9e5:
+      return "rgb9e5";
+    case PixelType::r11g11b10:
+      return "r11g11b10";
   }
   assert(false);
   return {};
 }
 
 const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {exr_format(),  hdr_format(),  pfm_format(), png_format(),
-                                          jpeg_format(), tiff_format(), webp_format()};
+  static const std::vector<Format> all = {exr_format(), hdr_format(),  ktx2_format(), pfm_format(),
+                                          png_format(), jpeg_format(), tiff_format(), webp_format()};
   return all;
 }
 

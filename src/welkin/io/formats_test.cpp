@@ -19,7 +19,8 @@ std::vector<std::string> extensions() {
 }
 
 TEST(Formats, ExtensionsAreTheDocumentedOnes) {
-  const std::vector<std::string> documented = {"hdr", "pfm", "png", "jpg", "jpeg", "tif", "tiff", "webp"};
+  const std::vector<std::string> documented = {"hdr",  "ktx2", "pfm",  "png", "jpg",
+                                               "jpeg", "tif",  "tiff", "webp"};
   EXPECT_EQ(extensions(), documented);
 }
 
@@ -29,6 +30,8 @@ TEST(Formats, PixelTypesHaveTheirNames) {
   EXPECT_EQ(name_of(PixelType::uint32), "uint32");
   EXPECT_EQ(name_of(PixelType::half), "half");
   EXPECT_EQ(name_of(PixelType::float32), "float");
+  EXPECT_EQ(name_of(PixelType::rgb9e5), "rgb9e5");
+  EXPECT_EQ(name_of(PixelType::r11g11b10), "r11g11b10");
 }
 
 TEST(Formats, AreKnownByTheirBytesNotTheirName) {
@@ -66,7 +69,7 @@ TEST(Formats, UnknownFilesAreExplained) {
       message.find("a.gif: not an image of a known format: begins with 'GIF89a.' (47 49 46 38 39 61 01)"),
       std::string::npos)
       << message;
-  EXPECT_NE(message.find("exr, hdr, pfm, png, jpeg, tiff, webp"), std::string::npos) << message;
+  EXPECT_NE(message.find("exr, hdr, ktx2, pfm, png, jpeg, tiff, webp"), std::string::npos) << message;
   const TemporaryFolder folder;
   const std::string missing = (folder / "missing.png").string();
   EXPECT_EQ(error_of([&] { open(fs::path(missing)); }), missing + ": No such file or directory");

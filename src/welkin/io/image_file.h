@@ -120,7 +120,8 @@ struct WriteReport {
 };
 
 /// Writes to a temporary file beside `path`, then renames it: on any failure nothing is left and an older
-/// file of that name stays. The format follows the name's extension. More than one part: EXR and TIFF only.
+/// file of that name stays. The format follows the name's extension. More than one part: EXR,
+/// KTX2 and TIFF only.
 WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
                   const WriteOptions& options = {});
 
@@ -138,7 +139,7 @@ WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size
 /// Throws Error, without the name itself, when the name's extension is none that can be written.
 void check_extension(const std::filesystem::path& path);
 
-/// Extensions that can be written, without dots: `exr hdr pfm png jpg jpeg tif tiff webp`.
+/// Extensions that can be written, without dots: `exr hdr ktx2 pfm png jpg jpeg tif tiff webp`.
 std::vector<std::string> writable_extensions();
 
 }  // namespace welkin::io

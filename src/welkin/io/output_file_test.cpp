@@ -108,6 +108,15 @@ TEST(OutputFile, WritesThroughToDevices) {
   EXPECT_EQ(message, "No space left on device");
 }
 
+TEST(OutputFile, AFileInSharedMemoryIsReplacedAsAnyOther) {
+  const fs::path path = "/dev/shm/welkin-output-file-test-" + std::to_string(::getpid());
+  if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "this system has no /dev/shm";
+  commit_text(path, "a longer text");
+  commit_text(path, "short");
+  EXPECT_EQ(text_of(path), "short");
+  fs::remove(path);
+}
+
 TEST(OutputFile, WritesThroughToAPipe) {
   const TemporaryFolder folder;
   const fs::path pipe = folder / "pipe";

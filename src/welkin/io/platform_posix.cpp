@@ -163,7 +163,8 @@ OutputFile::OutputFile(const fs::path& path) : state_(std::make_unique<State>())
   if (exists && S_ISDIR(old.st_mode)) throw Error(reason(EISDIR));
   if (exists && ::access(path.c_str(), W_OK) != 0) fail();
   const std::string text = path.lexically_normal().string();
-  const bool kernel_file = text.starts_with("/dev/") || text.starts_with("/proc/");
+  const bool kernel_file =
+      (text.starts_with("/dev/") && !text.starts_with("/dev/shm/")) || text.starts_with("/proc/");
   if (exists && (!S_ISREG(old.st_mode) || kernel_file)) {
     state.target = path;
     state.file = std::make_unique<Descriptor>(open_spool());
