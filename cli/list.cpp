@@ -4,6 +4,8 @@
 #include <map>
 
 #include "command.h"
+#include "welkin/lobe/lobe.h"
+#include "welkin/lobe/roughness_curve.h"
 #include "welkin/map/convention.h"
 #include "welkin/map/resample.h"
 #include "welkin/synth/synth.h"
@@ -23,12 +25,35 @@ void list_layouts() {
   }
 }
 
+/// Of parameterizations and of lobes.
+template <class Parameters>
+void print_parameters(const std::string& name, const Parameters& parameters) {
+  for (const auto& p : parameters) {
+    fmt::print("{},{}=  {} ({:g} to {:g}, default {:g})\n", name, p.name, p.description, p.lowest, p.highest,
+               p.value);
+  }
+}
+
 void list_parameters() {
-  for (const std::string& name : sphere::parameterization_names()) {
-    for (const auto& p : sphere::AnyParameterization::make(name).parameters()) {
-      fmt::print("{},{}=  {} ({:g} to {:g}, default {:g})\n", name, p.name, p.description, p.lowest,
-                 p.highest, p.value);
-    }
+  for (const std::string& name : sphere::parameterization_names())
+    print_parameters(name, sphere::AnyParameterization::make(name).parameters());
+  for (const std::string& name : lobe::lobe_names()) {
+    const lobe::AnyLobe lobe = lobe::AnyLobe::make(name);
+    print_parameters(name, lobe.parameters());
+    print_parameters(name, lobe.synonyms());
+  }
+}
+
+void list_lobes() {
+  for (const std::string& name : lobe::lobe_names())
+    fmt::print("{:<16} {}\n", name, lobe::AnyLobe::make(name).description());
+  fmt::print("{:<16} {}\n", "table,file=PATH", lobe::table_description());
+}
+
+void list_curves() {
+  for (const std::string& name : lobe::roughness_curve_names()) {
+    const auto curve = lobe::RoughnessCurve::from_name(name);
+    fmt::print("{:<16} {} ({})\n", name, curve.description(), curve.source());
   }
 }
 
@@ -37,6 +62,8 @@ const std::map<std::string, std::function<void()>>& lists() {
       {"parameterizations", list_parameterizations},
       {"layouts", list_layouts},
       {"parameters", list_parameters},
+      {"lobes", list_lobes},
+      {"curves", list_curves},
       {"conventions",
        [] {
          for (const auto& c : conventions()) fmt::print("{:<16} {}\n", c.name, c.description);
@@ -64,8 +91,9 @@ void add_list(CLI::App& app) {
   std::vector<std::string> names;
   for (const auto& [name, print] : lists()) names.push_back(name);
   command
-      ->add_option("WHAT", *what,
-                   "conventions, filters, formats, layouts, maps, parameterizations, parameters")
+      ->add_option(
+          "WHAT", *what,
+          "conventions, curves, filters, formats, layouts, lobes, maps, parameterizations, parameters")
       ->capture_default_str();
   command->callback([what, names] {
     const auto found = lists().find(*what);

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "command.h"
+#include "plot.h"
 #include "welkin/map/density.h"
 #include "welkin/map/mip_sheet.h"
 
@@ -99,6 +99,8 @@ void add_plot(CLI::App& app) {
       ->check(finite_number());
   mips->read.add(*command);
   command->callback([mips] { mips->run(); });
+
+  add_plot_lobe(*plot);
 }
 
 }  // namespace welkin::cli

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,19 @@ struct Parameter {
 /// `weights` for one instruction set: see AnyLobe::weights. `self` is the lobe's struct.
 using Weights = void (*)(const void* self, const float* s, float* weights, std::size_t count);
 
+/// Points with masses, for sums over them: `mass` has `channels` values for each.
+struct Points {
+  const float *x, *y, *z;
+  const float* mass;
+  int count = 0;
+  int channels = 0;
+};
+
+/// values[i·channels + c] += Σ_k w(|d_i − point_k|²/2) mass[k·channels + c] for unit directions d_i, i <
+/// count. Arrays of directions are read up to the next multiple of 16.
+using PointSums = void (*)(const void* self, const Points& points, const float* x, const float* y,
+                           const float* z, float* values, std::size_t count);
+
 /// One of the registered lobes, chosen by name at run time, with its parameters; or a lobe from a table.
 /// Cheap to copy; never changes; safe from many threads.
 ///
@@ -29,37 +43,52 @@ using Weights = void (*)(const void* self, const float* s, float* weights, std::
 /// doesn't: for unit vectors a and b, s = |a − b|²/2. Weights are finite, never negative, and not normalised.
 class AnyLobe {
  public:
-  /// By name, with parameters: `lambert`, `ggx,roughness=0.5`, `phong,exponent=50`. Throws Error: unknown
-  /// names (the nearest is suggested), values out of range, a lobe that doesn't integrate.
+  /// By name, with parameters: `lambert`, `ggx,roughness=0.5`, `phong,exponent=50`; or from a file:
+  /// `table,file=PATH`, where the path is all the rest (see table_file.h). Throws Error: unknown names (the
+  /// nearest is suggested), values out of range, a table that doesn't integrate.
   static AnyLobe make(std::string_view spec);
+  /// A lobe from values at ascending angles, in degrees from 0 to at most 180; linear in the angle between
+  /// them, 0 beyond the last. Its spec is `table,NAME`, which `make` cannot make again. Throws Error, which
+  /// begins with `name`: fewer than two points or over kMostTablePoints, values that are negative or not
+  /// finite, all 0, angles that don't ascend from 0, a width under 1e-7 radians.
+  static AnyLobe from_table(std::string_view name, std::span<const double> degrees,
+                            std::span<const double> values);
 
   std::string name() const;
   /// What `make` takes to get this one again: the name and the parameters that aren't at their default.
   std::string spec() const;
   std::vector<Parameter> parameters() const;
+  /// Other numbers that `make` takes in place of a parameter: phong's roughness is 1/exponent.
+  std::vector<Parameter> synonyms() const;
   std::string description() const;  ///< one line: what it is for
   std::string source() const;       ///< author, year, equation
 
-  /// Whether it has the parameter `roughness`, 0 … 1, with 0 a mirror.
+  /// Whether it has the parameter `roughness`, 0 … 1, with 0 a mirror (besides `charlie`, which has none and
+  /// begins at 0.01).
   bool has_roughness() const;
-  /// The same lobe with another roughness. Throws Error when it has none, or for a value outside 0 … 1.
+  /// The same lobe with another roughness. Throws Error when it has none, or for a value out of its range.
   AnyLobe with_roughness(double roughness) const;
   /// Whether it is a mirror: all weight at s = 0. Its weight() is meaningless; its zonal coefficients are 1.
   bool mirror() const;
 
   double weight(double s) const;  ///< the reference
-  /// ∫ w dω over the sphere, sr: 2π ∫ w ds.
+  /// The same over arrays.
+  void weights64(const double* s, double* weights, std::size_t count) const;
+  /// ∫ w dω over the sphere, sr: 2π ∫ w ds. Relative error 1e-11, a few microseconds. 0 for a mirror.
   double integral() const;
-  /// Radius of the core, radians: about where the weight has fallen to half of its largest. For choosing
-  /// steps.
+  /// Radius of the core, radians: about where the weight has fallen to half of its largest; of `charlie`
+  /// the ring's width. For choosing steps.
   double width() const;
   /// Where between 0 and 2 w isn't smooth: 1 when it is cut at the horizon. For placing quadrature nodes.
   std::vector<double> breakpoints() const;
 
   /// The same over arrays of float, for the best instruction set of this processor; `self()` is its first
   /// argument. Values up to the next multiple of 16 beyond `count` are read and written too. Relative error
-  /// 1e-5.
+  /// 1e-5 where the weight is above 1e-20 of the largest, below that an absolute one of 1e-25 of it; of a
+  /// table 1e-6 of the largest.
   Weights weights() const;
+  /// Sums of it, as fast; first argument self().
+  PointSums point_sums() const;
   const void* self() const;
 
   class Model;
@@ -69,7 +98,11 @@ class AnyLobe {
   std::shared_ptr<const Model> model_;
 };
 
-/// Names of all registered lobes, in order of registration.
+inline constexpr std::size_t kMostTablePoints = 10000;
+
+/// Names of all lobes that `make` knows without a file, in order of registration.
 const std::vector<std::string>& lobe_names();
+/// One line on `table`, which needs a file.
+std::string table_description();
 
 }  // namespace welkin::lobe

@@ -12,4 +12,17 @@ namespace welkin::lobe {
 /// call costs well under a millisecond for a degree of a few hundred. 1 everywhere for a mirror.
 std::vector<double> zonal_coefficients(const AnyLobe& lobe, int degree);
 
+/// What is lost of a lobe by keeping its degrees up to L alone, for every L that its coefficients reach; what
+/// lies beyond the coefficients given is not seen. `largest[L]` is the largest |λ_l| of l > L: the root mean
+/// square of what is lost of a convolved map is at most that times the map's. `sum[L]` is Σ (2l + 1) |λ_l|/4π
+/// over l > L: what is lost of the lobe, normalised to ∫ = 1, is nowhere more than that, sr⁻¹.
+struct ZonalTail {
+  std::vector<double> largest, sum;
+};
+ZonalTail zonal_tail(const std::vector<double>& coefficients);
+
+/// The least degree L such that no |λ_l| of L < l ≤ 2L + 16 is above `tolerance`; `most` where that is
+/// smaller. A lobe cut at the horizon decays as l^−2.5 there, a smooth one exponentially.
+int degree_for(const AnyLobe& lobe, double tolerance, int most);
+
 }  // namespace welkin::lobe

@@ -1,31 +1,20 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
 #include "welkin/base/parallel.h"
 #include "welkin/map/color_ramp.h"
 #include "welkin/map/density.h"
-#include "welkin/synth/font.h"
+#include "welkin/map/drawing.h"
 
 namespace welkin {
 namespace {
 
 using sphere::AnyParameterization;
-using Rgb = std::array<float, 3>;
 
 constexpr int kGap = 2;          // between charts
 constexpr double kOctaves = 2;   // of the scale on either side of the average
 constexpr int kNarrowest = 200;  // pictures leave room for the scale
-constexpr Rgb kWhite{1, 1, 1}, kBlack{0, 0, 0};
-
-/// Sets a pixel to `color` where `cover` is 1.
-void blend(Image& picture, int x, int y, const Rgb& color, double cover) {
-  if (x < 0 || y < 0 || x >= picture.width() || y >= picture.height()) return;
-  float* pixel = picture.at(x, y);
-  const float amount = static_cast<float>(std::clamp(cover, 0.0, 1.0));
-  for (std::size_t c = 0; c < 3; ++c) pixel[c] = (1 - amount) * pixel[c] + amount * color[c];
-}
 
 double scale_place(double octave) {
   return (octave + kOctaves) / (2 * kOctaves);
@@ -93,24 +82,6 @@ class ChartPainter {
   const double texels_over_average_;
 };
 
-void fill_rectangle(Image& picture, int x0, int y0, int width, int height, const Rgb& color) {
-  for (int y = y0; y < y0 + height; ++y) {
-    for (int x = x0; x < x0 + width; ++x) blend(picture, x, y, color, 1);
-  }
-}
-
-/// Text of capitals `size` pixels high, centred on (x, y).
-void draw_text(Image& picture, std::string_view text, double x, double y, double size) {
-  const double reach_x = (synth::text_width(text) / 2 + 0.2) * size, reach_y = 0.7 * size;
-  const double half_stroke = std::max(0.5, 0.055 * size);
-  for (int j = static_cast<int>(y - reach_y); j <= static_cast<int>(y + reach_y); ++j) {
-    for (int i = static_cast<int>(x - reach_x); i <= static_cast<int>(x + reach_x); ++i) {
-      const double distance = synth::text_distance(text, (i + 0.5 - x) / size, (j + 0.5 - y) / size) * size;
-      blend(picture, i, j, kBlack, half_stroke + 0.5 - distance);
-    }
-  }
-}
-
 /// 1/denominator, written as a fraction `size` pixels high when `denominator` isn't empty; else `whole`.
 struct Label {
   double octave;
@@ -129,21 +100,23 @@ struct ScaleSize {
 void draw_scale(Image& picture, int top, const ScaleSize& size) {
   const int width = picture.width() * 3 / 5, left = (picture.width() - width) / 2, bar_top = top + size.text;
   for (int x = 0; x < width; ++x) {
-    fill_rectangle(picture, left + x, bar_top, 1, size.bar, color_ramp((x + 0.5) / width));
+    fill_box(picture, {left + x, bar_top, 1, size.bar}, color_ramp((x + 0.5) / width));
   }
   const int tick = std::max(1, size.text / 12);
   for (const Label& label : kLabels) {
     const double x = left + width * scale_place(label.octave);
     const double y = bar_top + size.bar + 1.9 * size.text;
-    fill_rectangle(picture, static_cast<int>(std::lround(x - 0.5 * tick)), bar_top + size.bar, tick,
-                   size.text / 2, kBlack);
+    const int tick_left = static_cast<int>(std::lround(x - 0.5 * tick));
+    fill_box(picture, {tick_left, bar_top + size.bar, tick, size.text / 2}, kBlack);
     if (label.denominator.empty()) {
-      draw_text(picture, label.whole, x, y - 0.4 * size.text, size.text);
+      draw_text(picture, {label.whole, x, y - 0.4 * size.text, 1.0 * size.text});
     } else {
-      draw_text(picture, label.whole, x, y - 0.7 * size.text, 0.75 * size.text);
-      fill_rectangle(picture, static_cast<int>(x - 0.4 * size.text), static_cast<int>(y - 0.15 * size.text),
-                     static_cast<int>(0.8 * size.text), tick, kBlack);
-      draw_text(picture, label.denominator, x, y + 0.45 * size.text, 0.75 * size.text);
+      draw_text(picture, {label.whole, x, y - 0.7 * size.text, 0.75 * size.text});
+      fill_box(picture,
+               {static_cast<int>(x - 0.4 * size.text), static_cast<int>(y - 0.15 * size.text),
+                static_cast<int>(0.8 * size.text), tick},
+               kBlack);
+      draw_text(picture, {label.denominator, x, y + 0.45 * size.text, 0.75 * size.text});
     }
   }
 }
@@ -155,7 +128,7 @@ Image draw_density(const AnyParameterization& parameterization, int width, int h
   const int picture_width = std::max(charts_width, kNarrowest);
   const ScaleSize scale(picture_width);
   Image picture(picture_width, height + scale.height, 3);
-  fill_rectangle(picture, 0, 0, picture.width(), picture.height(), kWhite);
+  fill_box(picture, {0, 0, picture.width(), picture.height()}, kWhite);
   const ChartPainter painter(parameterization, width, height, average);
   const int left = (picture_width - charts_width) / 2;
   for (int chart = 0; chart < parameterization.charts(); ++chart) {

@@ -1,0 +1,312 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "welkin/base/cpu.h"
+#include "welkin/base/error.h"
+#include "welkin/base/number_text.h"
+#include "welkin/lobe/all.h"
+#include "welkin/lobe/kernels.h"
+#include "welkin/lobe/lobe.h"
+#include "welkin/lobe/panels.h"
+#include "welkin/lobe/table_file.h"
+#include "welkin/lobe/table_points.h"
+
+namespace welkin::lobe {
+
+/// What AnyLobe forwards to: one derived class per registered struct.
+class AnyLobe::Model {
+ public:
+  virtual ~Model() = default;
+  virtual std::string name() const = 0;
+  virtual std::string description() const = 0;
+  virtual std::string source() const = 0;
+  /// What stands behind the name in the spec, where that isn't the parameters.
+  virtual std::string origin() const = 0;
+  virtual std::vector<Parameter> parameters() const = 0;
+  virtual std::vector<Parameter> synonyms() const = 0;
+  /// `name` is a parameter's or a synonym's.
+  virtual void set(std::string_view name, double value) = 0;
+  virtual std::unique_ptr<Model> copy() const = 0;
+  virtual bool mirror() const = 0;
+  virtual double weight(double s) const = 0;
+  virtual void weights64(const double* s, double* weights, std::size_t count) const = 0;
+  virtual double width() const = 0;
+  virtual std::vector<double> breakpoints() const = 0;
+  virtual const void* self() const = 0;
+
+  Weights weights = nullptr;
+  PointSums point_sums = nullptr;
+};
+
+namespace {
+
+using Model = AnyLobe::Model;
+
+/// Gives every parameter or synonym to a visitor, where the lobe has any.
+template <class L, class Visitor>
+void visit_parameters(L& lobe, Visitor&& visit) {
+  if constexpr (requires { lobe.visit_parameters(visit); }) lobe.visit_parameters(visit);
+}
+template <class L, class Visitor>
+void visit_synonyms(L& lobe, Visitor&& visit) {
+  if constexpr (requires { lobe.visit_synonyms(visit); }) lobe.visit_synonyms(visit);
+}
+
+template <class L>
+class ModelOf final : public Model {
+ public:
+  explicit ModelOf(L lobe = {}) : lobe_(std::move(lobe)) {}
+
+  std::string name() const override { return L::kName; }
+  std::string description() const override { return L::kDescription; }
+  std::string source() const override { return L::kSource; }
+  std::string origin() const override {
+    if constexpr (requires { lobe_.origin; }) return lobe_.origin;
+    return {};
+  }
+
+  std::vector<Parameter> parameters() const override {
+    std::vector<Parameter> list;
+    L copy = lobe_;
+    visit_parameters(copy, collector(list));
+    return list;
+  }
+  std::vector<Parameter> synonyms() const override {
+    std::vector<Parameter> list;
+    L copy = lobe_;
+    visit_synonyms(copy, collector(list));
+    return list;
+  }
+  void set(std::string_view name, double value) override {
+    const auto assign = [&](const char* each, double& field, double, double, const char*) {
+      if (name == each) field = value;
+    };
+    visit_parameters(lobe_, assign);
+    visit_synonyms(lobe_, assign);
+  }
+  std::unique_ptr<Model> copy() const override { return std::make_unique<ModelOf>(*this); }
+
+  bool mirror() const override { return lobe_.mirror(); }
+  double weight(double s) const override { return lobe_.template weight<double>(s); }
+  void weights64(const double* s, double* weights, std::size_t count) const override {
+    const L lobe = lobe_;  // a copy that the stores can't change
+    for (std::size_t i = 0; i < count; ++i) weights[i] = lobe.template weight<double>(s[i]);
+  }
+  double width() const override { return lobe_.width(); }
+  std::vector<double> breakpoints() const override { return lobe_.breakpoints(); }
+  const void* self() const override { return &lobe_; }
+
+ private:
+  static auto collector(std::vector<Parameter>& list) {
+    return [&list](const char* name, double& value, double lowest, double highest, const char* text) {
+      list.push_back({name, value, lowest, highest, text});
+    };
+  }
+
+  L lobe_;
+};
+
+Weights best_weights(std::size_t index) {
+#ifdef WELKIN_HAS_AVX2
+  if (instruction_set() == InstructionSet::avx2) return weights_avx2(index);
+#endif
+  return weights_baseline(index);
+}
+
+PointSums best_point_sums(std::size_t index) {
+#ifdef WELKIN_HAS_AVX2
+  if (instruction_set() == InstructionSet::avx2) return point_sums_avx2(index);
+#endif
+  return point_sums_baseline(index);
+}
+
+template <class... L>
+std::vector<std::unique_ptr<Model>> make_models(TypeList<L...>) {
+  std::vector<std::unique_ptr<Model>> models;
+  (models.push_back(std::make_unique<ModelOf<L>>()), ...);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    models[i]->weights = best_weights(i);
+    models[i]->point_sums = best_point_sums(i);
+  }
+  return models;
+}
+
+/// Every lobe with its defaults, in the order of AllLobes.
+const std::vector<std::unique_ptr<Model>>& models() {
+  static const auto all = make_models(AllLobes{});
+  return all;
+}
+
+const Model& model_named(std::string_view name) {
+  std::vector<std::string> names;
+  for (const auto& model : models()) {
+    if (model->name() == name) return *model;
+    names.push_back(model->name());
+  }
+  throw Error(unknown_name("lobe", name, names));
+}
+
+/// Parameters and synonyms.
+std::vector<Parameter> settable(const Model& model) {
+  std::vector<Parameter> all = model.parameters();
+  for (Parameter& synonym : model.synonyms()) all.push_back(std::move(synonym));
+  return all;
+}
+
+void set_checked(Model& model, const Parameter& parameter, std::optional<double> value,
+                 const std::string& text) {
+  if (!value || !(*value >= parameter.lowest && *value <= parameter.highest)) {
+    throw Error(model.name() + ": " + parameter.name + "=" + text + " is not a number in " +
+                number_text(parameter.lowest) + "…" + number_text(parameter.highest) + " (" +
+                parameter.description + ")");
+  }
+  model.set(parameter.name, *value);
+}
+
+void set_parameter(Model& model, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  const std::string name(assignment.substr(0, equals));
+  const std::vector<Parameter> known = settable(model);
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& p) { return p.name == name; });
+  if (known.empty()) throw Error(model.name() + " takes no parameters, but '" + name + "' was given");
+  if (found == known.end()) {
+    std::vector<std::string> names;
+    for (const Parameter& each : known) names.push_back(each.name);
+    throw Error(unknown_name("parameter of " + model.name(), name, names));
+  }
+  if (equals == std::string_view::npos) throw Error(model.name() + ": write " + name + "=NUMBER");
+  const std::string text(assignment.substr(equals + 1));
+  set_checked(model, *found, text == "inf" ? std::numeric_limits<double>::infinity() : parse_number(text),
+              text);
+}
+
+std::unique_ptr<Model> model_of(Table table, std::string origin) {
+  table.origin = std::move(origin);
+  auto made = std::make_unique<ModelOf<Table>>(std::move(table));
+  made->weights = model_named(Table::kName).weights;
+  made->point_sums = model_named(Table::kName).point_sums;
+  return made;
+}
+
+/// The table behind `table,`.
+std::unique_ptr<Model> table_from_file(std::string_view assignment) {
+  constexpr std::string_view kFile = "file=";
+  if (assignment.substr(0, kFile.size()) != kFile || assignment == kFile) {
+    throw Error("table: write table,file=PATH");
+  }
+  const std::string path(assignment.substr(kFile.size()));
+  const TablePoints points = read_table_file(path);
+  return model_of(make_table(path, points.degrees, points.values), std::string(assignment));
+}
+
+}  // namespace
+
+const std::vector<std::string>& lobe_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const auto& model : models()) {
+      if (model->name() != Table::kName) list.push_back(model->name());
+    }
+    return list;
+  }();
+  return names;
+}
+
+std::string table_description() {
+  return Table::kDescription;
+}
+
+AnyLobe AnyLobe::make(std::string_view spec) {
+  const std::size_t comma = spec.find(',');
+  std::string_view rest = comma == std::string_view::npos ? std::string_view{} : spec.substr(comma + 1);
+  const Model& prototype = model_named(spec.substr(0, comma));
+  if (prototype.name() == Table::kName) return AnyLobe(table_from_file(rest));
+  std::unique_ptr<Model> made = prototype.copy();
+  while (!rest.empty()) {
+    const std::size_t next = rest.find(',');
+    set_parameter(*made, rest.substr(0, next));
+    rest = next == std::string_view::npos ? std::string_view{} : rest.substr(next + 1);
+  }
+  return AnyLobe(std::move(made));
+}
+
+AnyLobe AnyLobe::from_table(std::string_view name, std::span<const double> degrees,
+                            std::span<const double> values) {
+  return AnyLobe(model_of(make_table(name, degrees, values), std::string(name)));
+}
+
+AnyLobe AnyLobe::with_roughness(double roughness) const {
+  const std::vector<Parameter> known = settable(*model_);
+  const auto found =
+      std::find_if(known.begin(), known.end(), [](const auto& p) { return p.name == "roughness"; });
+  if (found == known.end()) throw Error("the lobe " + name() + " has no roughness");
+  std::unique_ptr<Model> made = model_->copy();
+  set_checked(*made, *found, roughness, number_text(roughness));
+  return AnyLobe(std::move(made));
+}
+
+bool AnyLobe::has_roughness() const {
+  const std::vector<Parameter> known = settable(*model_);
+  return std::any_of(known.begin(), known.end(), [](const auto& p) { return p.name == "roughness"; });
+}
+
+std::string AnyLobe::spec() const {
+  std::string text = name();
+  if (const std::string origin = model_->origin(); !origin.empty()) return text + "," + origin;
+  const std::vector<Parameter> now = parameters(), defaults = model_named(text).parameters();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i].value != defaults[i].value) text += "," + now[i].name + "=" + number_text(now[i].value);
+  }
+  return text;
+}
+
+double AnyLobe::integral() const {
+  if (mirror()) return 0;
+  const LobeNodes nodes = lobe_nodes(*this, 0);
+  return std::accumulate(nodes.weights.begin(), nodes.weights.end(), 0.0);
+}
+
+std::string AnyLobe::name() const {
+  return model_->name();
+}
+std::string AnyLobe::description() const {
+  return model_->description();
+}
+std::string AnyLobe::source() const {
+  return model_->source();
+}
+std::vector<Parameter> AnyLobe::parameters() const {
+  return model_->parameters();
+}
+std::vector<Parameter> AnyLobe::synonyms() const {
+  return model_->synonyms();
+}
+bool AnyLobe::mirror() const {
+  return model_->mirror();
+}
+double AnyLobe::weight(double s) const {
+  return model_->weight(s);
+}
+double AnyLobe::width() const {
+  return model_->width();
+}
+std::vector<double> AnyLobe::breakpoints() const {
+  return model_->breakpoints();
+}
+void AnyLobe::weights64(const double* s, double* weights, std::size_t count) const {
+  model_->weights64(s, weights, count);
+}
+PointSums AnyLobe::point_sums() const {
+  return model_->point_sums;
+}
+Weights AnyLobe::weights() const {
+  return model_->weights;
+}
+const void* AnyLobe::self() const {
+  return model_->self();
+}
+
+}  // namespace welkin::lobe

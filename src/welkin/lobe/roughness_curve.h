@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace welkin::lobe {
+
+/// Which roughness each level of a chain is filtered for: an engine's own curve by its name, or a list. The
+/// engine reads a surface of roughness r at level_of(r), so a level is filtered for the roughness that is
+/// read there.
+class RoughnessCurve {
+ public:
+  /// `linear`, `filament`, `unity`, `unreal`, `three.js`, `godot`, or a list: `0,0.1,0.5`. Throws Error:
+  /// unknown names (the nearest is suggested), a list with what isn't a number of 0 … 1, or that doesn't
+  /// ascend.
+  static RoughnessCurve from_name(std::string_view text);
+
+  /// What from_name takes to get this one again.
+  std::string text() const { return text_; }
+  std::string description() const;  ///< the formula, x = level / last level
+  std::string source() const;       ///< of an engine: the function it is in
+
+  /// How many levels a list is for; 0 for a named curve, which takes any number.
+  int listed_levels() const { return static_cast<int>(list_.size()); }
+
+  /// Roughness of a place between level 0 and level levels − 1, which `level` is clamped to. Never falls.
+  /// Throws Error when there is a list, and it is for another number of levels; `levels` is at least 1. A
+  /// chain of one level is at roughness 0, or what the list has; of unreal and three.js at 1.
+  double roughness(double level, int levels) const;
+  /// The inverse, clamped to 0 … levels − 1. Where several levels have the roughness, the first. Throws Error
+  /// like `roughness`, and for a roughness outside 0 … 1.
+  double level_of(double roughness, int levels) const;
+
+  std::vector<double> roughness_of_levels(int levels) const;
+
+ private:
+  explicit RoughnessCurve(std::string text) : text_(std::move(text)) {}
+  void check_levels(int levels) const;
+
+  std::string text_;
+  std::vector<double> list_;
+};
+
+/// Names of the curves that aren't lists.
+const std::vector<std::string>& roughness_curve_names();
+
+}  // namespace welkin::lobe

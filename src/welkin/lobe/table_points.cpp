@@ -1,0 +1,59 @@
+#include "welkin/lobe/table_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "welkin/base/error.h"
+#include "welkin/base/number_text.h"
+#include "welkin/lobe/lobe.h"
+
+namespace welkin::lobe {
+namespace {
+
+constexpr double kNarrowest = 1e-7;  // radians
+
+}  // namespace
+
+void check_point(const std::string& where, const std::vector<double>& before, double degrees, double value) {
+  const std::string angle = number_text(degrees) + "°";
+  if (!(degrees >= 0 && degrees <= 180)) throw Error(where + ": the angle " + angle + " is not in 0…180°");
+  if (before.empty() && degrees != 0) throw Error(where + ": the first angle is " + angle + ", not 0");
+  if (!before.empty() && !(degrees > before.back())) {
+    throw Error(where + ": the angle " + angle + " is not above the one before, " +
+                number_text(before.back()) + "°");
+  }
+  if (!(value >= 0 && std::isfinite(value))) {
+    throw Error(where + ": the value " + number_text(value) + " is not a finite number of at least 0");
+  }
+  if (before.size() >= kMostTablePoints) {
+    throw Error(where + ": has more than " + std::to_string(kMostTablePoints) + " points");
+  }
+}
+
+Table make_table(std::string_view name, std::span<const double> degrees, std::span<const double> values) {
+  const std::string label(name);
+  if (degrees.size() != values.size()) {
+    throw Error(label + ": has " + std::to_string(degrees.size()) + " angles for " +
+                std::to_string(values.size()) + " values");
+  }
+  if (degrees.size() < 2) throw Error(label + ": has fewer than two points");
+  std::vector<double> checked;
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    check_point(label + ": point " + std::to_string(i + 1), checked, degrees[i], values[i]);
+    checked.push_back(degrees[i]);
+  }
+  const double largest = *std::max_element(values.begin(), values.end());
+  if (largest == 0) throw Error(label + ": all values are 0");
+  Table table;
+  table.angles.clear();
+  table.values.clear();
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    // 180/180 · π is π exactly, π/180 · 180 need not be.
+    table.angles.push_back(degrees[i] / 180 * kPi);
+    table.values.push_back(values[i] / largest);
+  }
+  if (table.width() < kNarrowest) throw Error(label + ": is narrower than 1e-7 radians, as good as a mirror");
+  return table;
+}
+
+}  // namespace welkin::lobe
