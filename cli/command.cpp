@@ -121,12 +121,17 @@ void ReadFlags::add(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--channels", channels,
                      "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
-  command.add_option("--part", part, "Which picture of a file with several (from 0)")
+  command
+      .add_option("--part", part, "Which picture of a file with several, or which cube of an array (from 0)")
       ->check(CLI::Range(0, 1 << 30));
   command
       .add_option("--from-border", border,
                   "Texels of safety border around every chart of the input, where it doesn't declare them")
       ->check(CLI::Range(0, 65536));
+}
+
+void ReadFlags::add_level(CLI::App& command, const std::string& description) {
+  command.add_option("--level", level, description)->check(CLI::Range(0, 20));
 }
 
 ReadMapOptions ReadFlags::parse() const {
@@ -161,6 +166,7 @@ MapReader ReadFlags::open(const std::string& path) const {
         orientation_for(convention_from_name(convention), reader.info().shape->parameterization));
   }
   if (!faces.empty()) parse_option("--from-faces", [&] { reader.set_faces(faces); });
+  if (level) parse_option("--level", [&] { reader.set_level(*level); });
   return reader;
 }
 
@@ -173,7 +179,8 @@ void WriteFlags::add(CLI::App& command) {
   command.add_option("--to-faces", faces,
                      "Order and turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
   command.add_option("--type", type,
-                     "Stored values: uint8, uint16, uint32, half, float. Default: the format's best");
+                     "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10 in KTX2. "
+                     "Default: the format's best");
   command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")
       ->capture_default_str();
   command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");
@@ -196,8 +203,9 @@ WriteMapOptions WriteFlags::parse() const {
   options.image.quality = quality;
   if (!type.empty()) {
     std::vector<std::string> names;
-    for (const auto each : {io::PixelType::uint8, io::PixelType::uint16, io::PixelType::uint32,
-                            io::PixelType::half, io::PixelType::float32}) {
+    for (const auto each :
+         {io::PixelType::uint8, io::PixelType::uint16, io::PixelType::uint32, io::PixelType::half,
+          io::PixelType::float32, io::PixelType::rgb9e5, io::PixelType::r11g11b10}) {
       names.emplace_back(name_of(each));
       if (names.back() == type) options.image.type = each;
     }
@@ -240,6 +248,21 @@ void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& 
     throw UsageError(fmt::format("--border: {} texels are more than a chart of {}×{} has", flags.border,
                                  size.width, size.height));
   }
+}
+
+void check_output_levels(const std::string& path, const MapShape& shape, ChartSize size, int levels,
+                         const WriteFlags& flags) {
+  try {
+    check_chain(path, shape, size, levels, flags.parse());
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+int levels_of(const MapFileInfo& info) {
+  return std::max(1, static_cast<int>(info.levels.size()));
 }
 
 void report_losses(const std::string& path, const io::WriteReport& report) {

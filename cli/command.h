@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/io/image_file.h"
+#include "welkin/map/chain.h"
 #include "welkin/map/map_file.h"
 
 /// What the subcommands share. Each is one file with one add_… function: it declares its options, and its
@@ -34,6 +36,7 @@ auto parse_option(std::string_view option, const Parse& parse) {
 
 void add_info(CLI::App& app);
 void add_convert(CLI::App& app);
+void add_bake(CLI::App& app);
 void add_sample(CLI::App& app);
 void add_diff(CLI::App& app);
 void add_synth(CLI::App& app);
@@ -62,11 +65,15 @@ struct ReadFlags {
   int border = 0;
   std::string from, faces, convention, colour = "auto", channels;
   int part = 0;
+  std::optional<int> level;
 
   void add(CLI::App& command);
+  /// `--level`, for commands that read one level of a file with several.
+  void add_level(CLI::App& command, const std::string& description);
   /// Throws UsageError.
   ReadMapOptions parse() const;
-  /// The file opened, with the faces and the convention applied to the file's own parameterization.
+  /// The file opened, with the faces and the convention applied to the file's own parameterization, at the
+  /// level.
   MapReader open(const std::string& path) const;
   LoadedMap read(const std::string& path) const;
 };
@@ -88,6 +95,13 @@ void check_output(const std::string& path, const MapShape& shape, const WriteFla
 /// The same of the size: UsageError where the layout turns charts that aren't square, or the border is wider
 /// than one.
 void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& flags);
+
+/// The same of the levels.
+void check_output_levels(const std::string& path, const MapShape& shape, ChartSize size, int levels,
+                         const WriteFlags& flags);
+
+/// The file's levels: 1 also where the shape is unknown.
+int levels_of(const MapFileInfo& info);
 
 /// Warns on stderr of values that a format could not hold.
 void report_losses(const std::string& path, const io::WriteReport& report);

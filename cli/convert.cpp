@@ -22,6 +22,12 @@ struct Convert {
   bool allow_ringing = false, sanitize = false;
 
   void run() const;
+  /// How many of the input's levels are converted.
+  int levels_for(const MapFileInfo& info) const;
+  /// Of level 0.
+  ChartSize size_for(const Map& source, const MapShape& shape) const;
+  Map converted(const Map& source, const sphere::AnyParameterization& parameterization, ChartSize chart,
+                const ResampleOptions& options) const;
 };
 
 void Convert::run() const {
@@ -36,48 +42,78 @@ void Convert::run() const {
     for (double value : parse_numbers("--fill", fill)) options.fill.push_back(static_cast<float>(value));
   }
   std::optional<MapShape> shape;
-  if (!to.empty()) shape = parse_option("--to", [&] { return parse_map_shape(to); });
+  if (!to.empty()) shape = parse_option("--to", [&] { return parse_map_shape_for(out, to); });
   if (!convention.empty()) parse_option("--to-convention", [&] { return convention_from_name(convention); });
   if (shape) check_output(out, *shape, write);
   if (shape && !size.empty()) parse_chart_size("--size", size, shape->parameterization);
 
-  LoadedMap source = read.read(in);
-  if (!shape) {
-    // By its name: the turns that the input's faces were given are undone by reading it.
-    shape = parse_map_shape(source.info.shape->text());
-    check_output(out, *shape, write);
+  MapReader reader = read.open(in);
+  const MapFileInfo& info = reader.info();
+  const int first = read.level.value_or(0);
+  reader.shape();  // throws when it is unknown
+  const int levels = levels_for(info);
+  shape = to.empty() ? shape_for_copy(info, out, levels) : parse_map_shape_for(out, to, levels);
+  if (!read.level && levels < levels_of(info)) {
+    tell(fmt::format("welkin: {}: holds level 0 of the {} of {}; --level takes another\n", out,
+                     levels_of(info), in));
   }
-  if (options.fill.size() > static_cast<std::size_t>(source.map.channels())) {
-    throw UsageError(fmt::format("--fill: {} values, but {} has {} channels", options.fill.size(), in,
-                                 source.map.channels()));
-  }
-  // A change of format, layout or turn alone keeps the size, odd or not.
-  ChartSize chart = source.info.chart;
-  if (!size.empty()) {
-    chart = parse_chart_size("--size", size, shape->parameterization);
-  } else if (!(for_chart_size(*shape, chart).parameterization == source.map.parameterization)) {
-    chart = default_chart_size(source.map, shape->parameterization);
-  }
-  if (sanitize) {
-    const std::uint64_t replaced = welkin::sanitize(source.map);
-    tell(fmt::format("welkin: {}: {} texels with NaN or infinite values mended\n", in, replaced));
-    fill_borders(source.map);
-  }
-  check_output_size(chart, *shape, write);
-  shape = for_chart_size(*shape, chart);
-  Map target(shape->parameterization, chart.width, chart.height, source.map.channels());
-  target.channel_names = source.map.channel_names;
-  target.orientation = convention.empty()
-                           ? Matrix3{}
-                           : orientation_for(convention_from_name(convention), shape->parameterization);
+
+  Chain chain;
+  chain.notes = levels == 1 ? info.notes.of_level(first) : info.notes;
+  ChartSize finest;
+  std::uint64_t mended = 0;
   options.monitor = progress_monitor("convert");
-  resample(source.map, target, options);
+  for (int level = 0; level < levels; ++level) {
+    if (levels > 1) reader.set_level(level);
+    Map source = reader.read();
+    if (level == 0) {
+      check_output(out, *shape, write);
+      if (options.fill.size() > static_cast<std::size_t>(source.channels())) {
+        throw UsageError(fmt::format("--fill: {} values, but {} has {} channels", options.fill.size(), in,
+                                     source.channels()));
+      }
+      finest = size_for(source, *shape);
+      check_output_size(finest, *shape, write);
+      check_output_levels(out, *shape, finest, levels, write);
+    }
+    if (sanitize) {
+      mended += welkin::sanitize(source);
+      fill_borders(source);
+    }
+    chain.levels.push_back(converted(source, shape->parameterization, chain_size(finest, level), options));
+  }
   end_progress();
+  if (sanitize) tell(fmt::format("welkin: {}: {} texels with NaN or infinite values mended\n", in, mended));
+  report_losses(out, write_chain(out, chain, shape->layout, write_options));
+}
+
+int Convert::levels_for(const MapFileInfo& info) const {
+  if (read.level || !holds_levels(out)) return 1;
+  // Mere averages of the finest level can be made again for another shape; filtered levels can't.
+  const bool same_shape = to.empty() || for_chart_size(parse_map_shape(to), info.chart).parameterization ==
+                                            info.shape->parameterization;
+  return !info.notes.empty() || (same_shape && size.empty()) ? levels_of(info) : 1;
+}
+
+ChartSize Convert::size_for(const Map& source, const MapShape& shape) const {
+  if (!size.empty()) return parse_chart_size("--size", size, shape.parameterization);
+  // A change of format, layout or turn alone keeps the size, odd or not.
+  const ChartSize same{source.width(), source.height()};
+  if (for_chart_size(shape, same).parameterization == source.parameterization) return same;
+  return default_chart_size(source, shape.parameterization);
+}
+
+Map Convert::converted(const Map& source, const sphere::AnyParameterization& parameterization,
+                       ChartSize chart, const ResampleOptions& options) const {
+  Map target(parameterization, chart.width, chart.height, source.channels());
+  target.channel_names = source.channel_names;
+  if (!convention.empty())
+    target.orientation = orientation_for(convention_from_name(convention), parameterization);
+  resample(source, target, options);
   const double factor = scale * std::exp2(exposure);
-  source.map.level = Level();  // the writer may need the room for a second copy of the result
   if (factor != 1) welkin::scale(target, static_cast<float>(factor));
   if (write.border > 0) fill_borders(target);
-  report_losses(out, write_map(out, target, shape->layout, write_options));
+  return target;
 }
 
 }  // namespace
@@ -112,6 +148,9 @@ void add_convert(CLI::App& app) {
   command->add_flag("--sanitize", convert->sanitize,
                     "Replace NaN and infinite values by their neighbours' mean");
   convert->read.add(*command);
+  convert->read.add_level(*command,
+                          "Level of the input to take. Default: all, where the output holds levels and they "
+                          "are filtered or keep their shape");
   convert->write.add(*command);
   command->callback([convert] { convert->run(); });
 }

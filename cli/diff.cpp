@@ -18,10 +18,20 @@ struct Diff {
   std::string a, b, filter = "bilinear", heat, from_b;
   ReadFlags read;
   double peak = 0, fail_above = -1;
+  std::optional<int> level;
   bool json = false;
 
   void run() const;
+  void compare_maps(const Map& reference, const Map& other, const CompareOptions& options) const;
+  /// Level by level.
+  void compare_chains(MapReader& reference, MapReader& other, const CompareOptions& options) const;
+  /// Throws when the error is above fail_above.
+  void check_error(const Comparison& result, const std::string& where) const;
 };
+
+void print_json(const ordered_json& report) {
+  fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+}
 
 ordered_json json_of(const ErrorMeasures& e) {
   const auto direction = [](const Vec3d& d) { return ordered_json{d.x, d.y, d.z}; };
@@ -47,6 +57,74 @@ void print(const ErrorMeasures& e) {
       e.maximum_absolute_direction.y, e.maximum_absolute_direction.z, e.psnr, e.energy_ratio);
 }
 
+void print_footer(const Comparison& result) {
+  fmt::print("{} texels over {:.4f} sr compared {}{}; PSNR is relative to {:g}\n", result.texels,
+             result.solid_angle, result.texel_by_texel ? "one by one" : "at the finer map's texels",
+             result.skipped > 0 ? fmt::format(", {} skipped (NaN or infinite)", result.skipped) : "",
+             result.peak);
+}
+
+void add_json(ordered_json& report, const Comparison& result) {
+  report["all"] = json_of(result.all);
+  for (const ErrorMeasures& channel : result.channels) report["channels"].push_back(json_of(channel));
+  report["peak"] = result.peak;
+  report["texel_by_texel"] = result.texel_by_texel;
+  report["texels"] = result.texels;
+  report["solid_angle"] = result.solid_angle;
+  report["skipped"] = result.skipped;
+}
+
+void Diff::check_error(const Comparison& result, const std::string& where) const {
+  if (fail_above < 0 || result.all.relative_rmse <= fail_above) return;
+  throw Error(fmt::format("{} and {} differ{}: relative RMSE {:.6g} is above {:g}", a, b, where,
+                          result.all.relative_rmse, fail_above));
+}
+
+void Diff::compare_maps(const Map& reference, const Map& other, const CompareOptions& options) const {
+  std::optional<Map> picture;
+  if (!heat.empty()) {
+    picture.emplace(sphere::AnyParameterization::make("latlong"), options.heat_width, options.heat_width / 2,
+                    3);
+  }
+  const Comparison result = compare(reference, other, options, picture ? &*picture : nullptr);
+  end_progress();
+  if (picture) write_map(heat, *picture, layouts_of(picture->parameterization).front());
+  if (json) {
+    ordered_json report{{"a", a}, {"b", b}};
+    add_json(report, result);
+    print_json(report);
+  } else {
+    for (const ErrorMeasures& channel : result.channels) print(channel);
+    print(result.all);
+    print_footer(result);
+  }
+  check_error(result, "");
+}
+
+void Diff::compare_chains(MapReader& reference, MapReader& other, const CompareOptions& options) const {
+  const int levels_a = levels_of(reference.info()), levels_b = levels_of(other.info());
+  ordered_json report{{"a", a}, {"b", b}, {"levels_a", levels_a}, {"levels_b", levels_b}};
+  std::vector<Comparison> results;
+  for (int level = 0; level < std::min(levels_a, levels_b); ++level) {
+    reference.set_level(level);
+    other.set_level(level);
+    results.push_back(compare(reference.read(), other.read(), options));
+    ErrorMeasures named = results.back().all;
+    named.name = fmt::format("level {}", level);
+    if (!json) print(named);
+    ordered_json entry{{"level", level}};
+    add_json(entry, results.back());
+    report["levels"].push_back(std::move(entry));
+  }
+  end_progress();
+  if (json) print_json(report);
+  if (!json && levels_a != levels_b)
+    fmt::print("{} has {} levels, {} has {}: the others are not compared\n", a, levels_a, b, levels_b);
+  for (std::size_t level = 0; level < results.size(); ++level) {
+    check_error(results[level], fmt::format(" at level {}", level));
+  }
+}
+
 void Diff::run() const {
   read.parse();
   CompareOptions options;
@@ -58,37 +136,19 @@ void Diff::run() const {
     read_b.from = from_b;
   }
   if (!heat.empty()) check_output(heat, parse_map_shape("latlong"));
-  const LoadedMap reference = read.read(a), other = read_b.read(b);
+  MapReader reference = read.open(a), other = read_b.open(b);
+  const bool chains = levels_of(reference.info()) > 1 && levels_of(other.info()) > 1;
+  if (level) {
+    // A file with one level is compared with the other's level as it is.
+    const bool any = levels_of(reference.info()) > 1 || levels_of(other.info()) > 1;
+    for (MapReader* each : {&reference, &other}) {
+      if (!any || levels_of(each->info()) > 1) parse_option("--level", [&] { each->set_level(*level); });
+    }
+  }
   options.monitor = progress_monitor("diff");
-  std::optional<Map> picture;
-  if (!heat.empty()) {
-    picture.emplace(sphere::AnyParameterization::make("latlong"), options.heat_width, options.heat_width / 2,
-                    3);
-  }
-  const Comparison result = compare(reference.map, other.map, options, picture ? &*picture : nullptr);
-  end_progress();
-  if (picture) write_map(heat, *picture, layouts_of(picture->parameterization).front());
-  if (json) {
-    ordered_json report{{"a", a}, {"b", b}, {"all", json_of(result.all)}};
-    for (const ErrorMeasures& channel : result.channels) report["channels"].push_back(json_of(channel));
-    report["peak"] = result.peak;
-    report["texel_by_texel"] = result.texel_by_texel;
-    report["texels"] = result.texels;
-    report["solid_angle"] = result.solid_angle;
-    report["skipped"] = result.skipped;
-    fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
-  } else {
-    for (const ErrorMeasures& channel : result.channels) print(channel);
-    print(result.all);
-    fmt::print("{} texels over {:.4f} sr compared {}{}; PSNR is relative to {:g}\n", result.texels,
-               result.solid_angle, result.texel_by_texel ? "one by one" : "at the finer map's texels",
-               result.skipped > 0 ? fmt::format(", {} skipped (NaN or infinite)", result.skipped) : "",
-               result.peak);
-  }
-  if (fail_above >= 0 && !(result.all.relative_rmse <= fail_above)) {
-    throw Error(fmt::format("{} and {} differ: relative RMSE {:.6g} is above {:g}", a, b,
-                            result.all.relative_rmse, fail_above));
-  }
+  if (level || !chains) return compare_maps(reference.read(), other.read(), options);
+  if (!heat.empty()) throw UsageError("--heat: shows one level of these files: name it with --level");
+  compare_chains(reference, other, options);
 }
 
 }  // namespace
@@ -116,6 +176,11 @@ void add_diff(CLI::App& app) {
       ->check(finite_number(0));
   command->add_flag("--json", diff->json, "Machine-readable, on standard output");
   diff->read.add(*command);
+  command
+      ->add_option(
+          "--level", diff->level,
+          "Level to compare, of both files or of the one that has several. Default: each that both have")
+      ->check(CLI::Range(0, 20));
   command->callback([diff] { diff->run(); });
 }
 

@@ -31,9 +31,14 @@ int level_served(const MapFileInfo& info) {
                   coarsest_level_served(info.border, info.chart.height));
 }
 
+bool is_texture(const io::FileInfo& file) {
+  return file.format == "ktx2";
+}
+
 ordered_json header_of(const std::string& path, const MapFileInfo& info) {
   ordered_json parts = ordered_json::array();
   for (const io::PartInfo& part : info.image.parts) {
+    if (part.level > 0) continue;
     parts.push_back({{"name", part.name},
                      {"width", part.width},
                      {"height", part.height},
@@ -48,6 +53,10 @@ ordered_json header_of(const std::string& path, const MapFileInfo& info) {
                       {"colour", info.image.colour == io::Colour::srgb ? "srgb" : "linear"},
                       {"notes", info.image.notes},
                       {"attributes", info.image.attributes}};
+  if (is_texture(info.image)) {
+    report["texture"] = {
+        {"levels", info.image.levels}, {"layers", info.image.layers}, {"faces", info.image.faces}};
+  }
   report["parameterization"] = info.shape ? ordered_json(info.shape->text()) : ordered_json(nullptr);
   report["reason"] = info.reason;
   if (info.shape) report["chart"] = {{"width", info.chart.width}, {"height", info.chart.height}};
@@ -55,6 +64,16 @@ ordered_json header_of(const std::string& path, const MapFileInfo& info) {
     report["border"] = {{"texels", info.border}, {"coarsest_level_served", level_served(info)}};
   }
   if (!(info.orientation == Matrix3{})) report["orientation"] = info.orientation.rows;
+  if (!info.notes.lobe.empty()) report["lobe"] = info.notes.lobe;
+  if (!info.notes.curve.empty()) report["roughness_curve"] = info.notes.curve;
+  if (!info.notes.normalisation.empty()) report["normalisation"] = info.notes.normalisation;
+  if (levels_of(info) == 1) return report;
+  for (int level = 0; level < levels_of(info); ++level) {
+    const ChartSize size = info.levels[static_cast<std::size_t>(level)];
+    ordered_json entry{{"width", size.width}, {"height", size.height}};
+    if (const auto roughness = info.notes.roughness_of(level)) entry["roughness"] = *roughness;
+    report["levels"].push_back(std::move(entry));
+  }
   return report;
 }
 
@@ -95,15 +114,38 @@ ordered_json statistics_of(const MapStatistics& s) {
   return report;
 }
 
+void print_texture(const io::FileInfo& file) {
+  if (!is_texture(file)) return;
+  std::string kind = file.faces == 6 ? "cube" : "2-D";
+  if (file.layers > 0) kind += fmt::format(", {} layers", file.layers);
+  fmt::print("  texture           {}, {} {}\n", kind, file.levels, file.levels == 1 ? "level" : "levels");
+}
+
+/// A line for each level, with its mean luminance where it's known.
+void print_levels(const MapFileInfo& info, const std::vector<double>& means) {
+  if (levels_of(info) == 1) return;
+  for (std::size_t level = 0; level < info.levels.size(); ++level) {
+    const ChartSize size = info.levels[level];
+    const auto roughness = info.notes.roughness_of(static_cast<int>(level));
+    fmt::print("  {:<17} charts {}×{}{}{}\n", fmt::format("level {}", level), size.width, size.height,
+               roughness ? fmt::format(", roughness {:.6g}", *roughness) : "",
+               level < means.size() ? fmt::format(", mean luminance {:.6g}", means[level]) : "");
+  }
+}
+
 void print_header(const std::string& path, const MapFileInfo& info) {
   fmt::print("{}\n", path);
   fmt::print("  format            {}, {} bytes, {} values\n", info.image.format, info.image.bytes,
              info.image.colour == io::Colour::srgb ? "sRGB" : "linear");
+  print_texture(info.image);
   for (const io::PartInfo& part : info.image.parts) {
+    // Faces, layers and levels of a texture are alike, save their size.
+    const bool alike = is_texture(info.image) || info.image.levels > 1;
+    if (alike && (part.level > 0 || part.layer > 0 || part.face > 0)) continue;
     std::string channels;
     for (const std::string& channel : part.channels) channels += (channels.empty() ? "" : " ") + channel;
     fmt::print("  picture{:<10} {}×{}, {} of {}, compression {}\n",
-               part.name.empty() ? "" : " " + printable(part.name), part.width, part.height,
+               part.name.empty() || alike ? "" : " " + printable(part.name), part.width, part.height,
                printable(channels), name_of(part.type), part.compression);
   }
   for (const std::string& note : info.image.notes) fmt::print("  note              {}\n", note);
@@ -147,6 +189,29 @@ void print_statistics(const MapStatistics& s) {
       100 * light.share);
 }
 
+struct Measures {
+  MapStatistics statistics;   ///< of the level asked for
+  std::vector<double> means;  ///< luminance of every level, where none is asked for
+};
+
+Measures measure_levels(MapReader& reader, std::optional<int> level) {
+  Measures measures;
+  const Monitor monitor = progress_monitor("info");
+  if (level) {
+    measures.statistics = measure(reader.read(), monitor);
+  } else {
+    for (int each = 0; each < levels_of(reader.info()); ++each) {
+      reader.set_level(each);
+      const MapStatistics statistics = measure(reader.read(), monitor);
+      measures.means.push_back(statistics.luminance.mean);
+      if (each == 0) measures.statistics = statistics;
+    }
+    reader.set_level(0);
+  }
+  end_progress();
+  return measures;
+}
+
 void Info::run() const {
   read.parse();
   ordered_json all = ordered_json::array();
@@ -160,11 +225,15 @@ void Info::run() const {
     }
     first = false;
     ordered_json report = header_of(path, info);
-    if (info.shape && !header) {
-      const MapStatistics statistics = measure(reader.read(), progress_monitor("info"));
-      end_progress();
-      if (!json) print_statistics(statistics);
-      report["statistics"] = statistics_of(statistics);
+    const bool measured = info.shape && !header;
+    const Measures measures = measured ? measure_levels(reader, read.level) : Measures{};
+    if (!json) print_levels(info, measures.means);
+    for (std::size_t level = 0; levels_of(info) > 1 && level < measures.means.size(); ++level) {
+      report["levels"][level]["mean_luminance"] = measures.means[level];
+    }
+    if (measured) {
+      if (!json) print_statistics(measures.statistics);
+      report["statistics"] = statistics_of(measures.statistics);
     }
     all.push_back(std::move(report));
   }
@@ -184,6 +253,7 @@ void add_info(CLI::App& app) {
   command->add_flag("--header", info->header, "Only what the header says; read no pixels");
   command->add_flag("--json", info->json, "Machine-readable, on standard output");
   info->read.add(*command);
+  info->read.add_level(*command, "Level to measure. Default: the finest, and every level's mean");
   command->callback([info] { info->run(); });
 }
 

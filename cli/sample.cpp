@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "command.h"
@@ -15,7 +16,7 @@ namespace {
 struct Sample {
   std::string map, filter = "bilinear";
   std::vector<std::string> directions;
-  int level = 0;
+  double level = 0;
   ReadFlags read;
 
   void run() const;
@@ -28,12 +29,60 @@ Vec3d checked(const std::string& where, double x, double y, double z) {
   return {x / longest, y / longest, z / longest};
 }
 
-void print_values(const Map& map, const Level& level, const std::vector<Vec3d>& directions, Filter filter) {
-  std::vector<float> values(directions.size() * static_cast<std::size_t>(level.channels()));
-  sample(map, level, directions, filter, values);
+/// What is looked up: a map at a level, or between two.
+struct Levels {
+  Map finer;
+  std::optional<Map> coarser;  ///< where it has a weight
+  double weight = 0;
+};
+
+void check_level(const std::string& path, double level, int last) {
+  if (level > last) throw UsageError(fmt::format("--level: {} has levels 0 to {}", path, last));
+}
+
+Levels levels_of_file(MapReader& reader, const std::string& path, double level) {
+  check_level(path, level, levels_of(reader.info()) - 1);
+  const int finer = static_cast<int>(level);
+  reader.set_level(finer);
+  Levels levels{reader.read(), std::nullopt, level - finer};
+  if (levels.weight > 0) {
+    reader.set_level(finer + 1);
+    levels.coarser = reader.read();
+  }
+  return levels;
+}
+
+Levels levels_of_pyramid(Map map, const std::string& path, double level) {
+  check_level(path, level, levels_below(map.width(), map.height()));
+  const int finer = static_cast<int>(level);
+  const double weight = level - finer;
+  std::vector<Level> pyramid = make_pyramid(map, weight > 0 ? finer + 1 : finer);
+  std::optional<Map> coarser;
+  if (weight > 0) {
+    coarser.emplace(map.parameterization, 1, 1, map.channels());
+    coarser->parameterization = map.parameterization;
+    coarser->orientation = map.orientation;
+    coarser->level = std::move(pyramid.back());
+    pyramid.pop_back();
+  }
+  if (finer > 0) map.level = std::move(pyramid.back());
+  return {std::move(map), std::move(coarser), weight};
+}
+
+void print_values(const Levels& levels, const std::vector<Vec3d>& directions, Filter filter) {
+  const auto channels = static_cast<std::size_t>(levels.finer.channels());
+  std::vector<float> values(directions.size() * channels);
+  sample(levels.finer, levels.finer.level, directions, filter, values);
+  if (levels.coarser) {
+    std::vector<float> coarser(values.size());
+    sample(*levels.coarser, levels.coarser->level, directions, filter, coarser);
+    const auto weight = static_cast<float>(levels.weight);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = (1 - weight) * values[i] + weight * coarser[i];
+    }
+  }
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool last = (i + 1) % static_cast<std::size_t>(level.channels()) == 0;
-    fmt::print("{:.9g}{}", values[i], last ? "\n" : " ");
+    fmt::print("{:.9g}{}", values[i], (i + 1) % channels == 0 ? "\n" : " ");
   }
 }
 
@@ -46,14 +95,10 @@ void Sample::run() const {
     if (n.size() != 3) throw UsageError("--dir: '" + text + "' is not x,y,z");
     given.push_back(checked("--dir: '" + text + "'", n[0], n[1], n[2]));
   }
-  const LoadedMap loaded = read.read(map);
-  if (level > levels_below(loaded.map.width(), loaded.map.height())) {
-    throw UsageError(fmt::format("--level: {} has levels 0 to {}", map,
-                                 levels_below(loaded.map.width(), loaded.map.height())));
-  }
-  const std::vector<Level> pyramid = make_pyramid(loaded.map, level);
-  const Level& used = level == 0 ? loaded.map.level : pyramid.back();
-  if (!directions.empty()) return print_values(loaded.map, used, given, how);
+  MapReader reader = read.open(map);
+  const Levels levels = levels_of(reader.info()) > 1 ? levels_of_file(reader, map, level)
+                                                     : levels_of_pyramid(reader.read(), map, level);
+  if (!directions.empty()) return print_values(levels, given, how);
 
   std::string line;
   for (int number = 1; std::getline(std::cin, line); ++number) {
@@ -63,7 +108,7 @@ void Sample::run() const {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string where = fmt::format("standard input, line {}: '{}'", number, printable(line));
     if (!(words >> x >> y >> z) || words >> rest) throw UsageError(where + " is not x y z");
-    print_values(loaded.map, used, {checked(where, x, y, z)}, how);
+    print_values(levels, {checked(where, x, y, z)}, how);
   }
 }
 
@@ -78,8 +123,10 @@ void add_sample(CLI::App& app) {
                    "Directions x,y,z of any length (+Y is up). Without it: lines `x y z` from standard input")
       ->allow_extra_args();
   command
-      ->add_option("--level", sample->level, "Pyramid level: 0 is the map, each next one has half the size")
-      ->check(CLI::NonNegativeNumber);
+      ->add_option("--level", sample->level,
+                   "Level of the file, or of the map's pyramid where the file has one only; 2.5 is halfway "
+                   "between two")
+      ->check(finite_number(0));
   command->add_option("--filter", sample->filter, "nearest, bilinear, bicubic, lanczos")
       ->capture_default_str();
   sample->read.add(*command);

@@ -39,6 +39,7 @@ struct RingingFetch {
 struct FetchKernels {
   Fetch nearest;
   Fetch bilinear;         ///< tent over 2×2 texels
+  Fetch b_spline;         ///< cubic B-spline, 4×4 texels that hold its coefficients, not values
   RingingFetch bicubic;   ///< Keys 1981, a = −½ (Catmull–Rom), 4×4 texels
   RingingFetch lanczos3;  ///< 6×6 texels
   RingingFetch lanczos4;  ///< 8×8 texels

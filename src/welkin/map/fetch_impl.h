@@ -124,6 +124,20 @@ struct FetchOf {
     }
   };
 
+  /// Values of the cubic B-spline at the texels −1, 0, 1, 2: a grid of spline coefficients is read with it.
+  struct BSpline {
+    static constexpr int kTaps = 4;
+    static constexpr int kBefore = 1;
+    static void weights(const Pack& f, Pack* w) {
+      const Pack sixth(1.0f / 6), half(0.5f), two_thirds(2.0f / 3);
+      const Pack g = Pack(1.0f) - f;
+      w[0] = sixth * g * g * g;
+      w[1] = two_thirds + f * f * (half * f - Pack(1.0f));
+      w[2] = two_thirds + g * g * (half * g - Pack(1.0f));
+      w[3] = sixth * f * f * f;
+    }
+  };
+
   /// sinc(t)·sinc(t/A) for the 2A texels around a place, divided by their sum (C. Duchon, "Lanczos filtering
   /// in one and two dimensions", 1979). sin(π(f−k)) = ±sin πf, and sin(π(f−k)/A) follows by the addition
   /// theorem.
@@ -208,6 +222,7 @@ struct FetchOf {
   static FetchKernels table() {
     return {&nearest,
             &bilinear,
+            &separable<BSpline, false>,
             {&separable<Cubic, false>, &separable<Cubic, true>},
             {&separable<Lanczos<3>, false>, &separable<Lanczos<3>, true>},
             {&separable<Lanczos<4>, false>, &separable<Lanczos<4>, true>}};

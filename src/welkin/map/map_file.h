@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "welkin/io/image_file.h"
+#include "welkin/map/chain_notes.h"
 #include "welkin/map/layout.h"
 #include "welkin/map/map.h"
 
@@ -23,7 +24,8 @@ struct ReadMapOptions {
   /// else native.
   std::optional<Matrix3> orientation;
   int border = 0;  ///< texels of safety border around every chart in the file, besides what the file declares
-  std::size_t part = 0;  ///< of a file with several pictures, unless these are the charts
+  std::size_t part = 0;  ///< of a file with several pictures; where these are the charts, of several sets
+  int level = 0;         ///< of a file with levels; 0 is the finest
   io::ReadOptions image;
 };
 
@@ -32,7 +34,10 @@ struct MapFileInfo {
   io::FileInfo image;             ///< of the first file where there are several
   std::optional<MapShape> shape;  ///< none when nothing declares it and the size suggests nothing
   std::string reason;             ///< why this shape: `declared by the file`, `guessed from 2:1`…
-  ChartSize chart;                ///< meaningful when there is a shape
+  ChartSize chart;                ///< of the level that is read; meaningful when there is a shape
+  std::vector<ChartSize> levels;  ///< charts of every level; one entry for a file without levels, none
+                                  ///< without a shape
+  ChainNotes notes;               ///< what the file says of its levels
   int border = 0;                 ///< safety border around every chart in the file, texels
   Matrix3 orientation;
 };
@@ -46,13 +51,16 @@ class MapReader {
 
   const MapFileInfo& info() const { return info_; }
 
+  /// The shape. Throws where there is none: the message says how to name it.
+  const MapShape& shape() const;
+
   /// Changes these options, now that the shape is known.
   void set_faces(std::string faces);
   void set_orientation(const Matrix3& orientation);
+  void set_level(int level);
 
-  /// The map, its borders filled. Throws also when the shape is unknown: the message says how to name it. A
-  /// picture of one chart is decoded straight into the map; of several, the picture is in memory besides the
-  /// map while this lasts.
+  /// The map, its borders filled. Throws also when the shape is unknown. A picture of one chart is decoded
+  /// straight into the map; of several, the picture is in memory besides the map while this lasts.
   Map read();
 
  private:
@@ -70,6 +78,22 @@ struct LoadedMap {
 /// Opens and reads.
 LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
 
+/// Whether a file of this name can hold levels: EXR and KTX2 can.
+bool holds_levels(const std::filesystem::path& path);
+
+/// The layout that a file of this name gets when none is named: charts are faces or layers in a texture
+/// (KTX2); cubes are strips in a picture with levels, whose halves are then pictures of halved faces; else it
+/// is the first of layouts_of.
+const Layout& default_layout(const sphere::AnyParameterization& parameterization,
+                             const std::filesystem::path& path, int levels = 1);
+
+/// parse_map_shape for a file to write: without a layout in the text, the default_layout.
+MapShape parse_map_shape_for(const std::filesystem::path& path, std::string_view text, int levels = 1);
+
+/// For a map that goes from its file to another with its shape, which must be known: the layout stays too,
+/// but is the default_layout where one of the files is a texture and the other isn't.
+MapShape shape_for_copy(const MapFileInfo& from, const std::filesystem::path& to, int levels = 1);
+
 /// Throws Error, naming the path, when it has a `%s` and the layout is of one file, or the other way round.
 void check_face_pattern(const std::filesystem::path& path, const Layout& layout);
 
@@ -86,6 +110,7 @@ struct WriteMapOptions {
 
 /// Writes the charts in the layout. The parameterization, layout, faces and orientation go into the file's
 /// text metadata where the format has any, and reading it restores them. Cells that no chart fills are 0.
+/// In a KTX2, `layers` of a cube are the faces of a cube texture, and of others the layers of an array.
 io::WriteReport write_map(const std::filesystem::path& path, const Map& map, const Layout& layout,
                           const WriteMapOptions& options = {});
 
