@@ -1,0 +1,57 @@
+#pragma once
+
+#include "welkin/lobe/lobe.h"
+#include "welkin/prefilter/fft.h"
+#include "welkin/prefilter/legendre.h"
+#include "welkin/prefilter/moments.h"
+
+/// The inner loops of pre-filtering, compiled once per instruction set. `parts` are the real and imaginary
+/// parts of up to three channels: 2, 4 or 6 values side by side.
+///
+/// Orders of a row transform are laid out [order m][pack][parity][part][8 lanes]: for each northern latitude,
+/// parity 0 is the row plus its mirror image about the equator, parity 1 the row less its mirror image.
+namespace welkin::prefilter {
+
+/// Masses of rows of a lat-long picture; see RowSpread.
+struct SpreadRows {
+  const float* texels;        ///< of row 0
+  std::ptrdiff_t row_stride;  ///< in values
+  int width, channels;
+  int height;        ///< rows of masses
+  const int* first;  ///< see RowSpread
+  const RowSpread::Tap* taps;
+  bool points;  ///< spread each mass over three columns
+};
+
+struct Kernels {
+  /// Masses of the pack's rows: channel after channel, [column][16]. `work`: 16·(width + 2)·channels + 64
+  /// values.
+  void (*spread_rows)(const SpreadRows& rows, int pack, float* lanes, float* work);
+
+  /// Transforms one channel of a pack, in place, and writes the orders 0 … degree, times `factors`, of part
+  /// 2·channel and the next. `work` has as many values as the rows. `orders` is at [0][pack][0][2·channel].
+  void (*rows_to_orders)(const FftPlan& plan, float* lanes, float* work, const float* factors, int degree,
+                         int packs, int parts, float* orders);
+  /// The reverse: fills `lanes`, [column][16], and returns where the result is: `lanes` or `work`.
+  float* (*orders_to_rows)(const FftPlan& plan, const float* orders, int degree, int packs, int parts,
+                           float* lanes, float* work);
+
+  /// Of a SampledLobe.
+  lobe::PointSums sampled_sums;
+
+  /// See legendre_impl.h; index channels − 1.
+  void (*analyse[3])(const Latitudes& latitudes, const Recurrence& r, int degree, const float* rows,
+                     float* work, float* out);
+  void (*synthesise[3])(const Latitudes& latitudes, const Recurrence& r, int degree,
+                        const float* coefficients, float* rows);
+};
+
+const Kernels& kernels_baseline();
+#ifdef WELKIN_HAS_AVX2
+const Kernels& kernels_avx2();
+#endif
+
+/// For the best instruction set of this processor.
+const Kernels& kernels();
+
+}  // namespace welkin::prefilter

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+
+#include "welkin/map/adjust.h"
+#include "welkin/map/resample.h"
+#include "welkin/prefilter/tables.h"
+#include "welkin/prefilter/widen.h"
+
+namespace welkin {
+namespace {
+
+using namespace prefilter;
+
+void check(const PrefilterShape& source, const std::vector<PrefilterLevel>& levels,
+           const PrefilterOptions& options) {
+  const auto positive = [](ChartSize size) { return size.width > 0 && size.height > 0; };
+  if (!positive(source.size) || source.channels < 1) throw Error("prefilter: the source has no texels");
+  for (const PrefilterLevel& level : levels) {
+    if (!positive(level.size)) throw Error("prefilter: a level has no texels");
+  }
+  if (!(options.tolerance >= 1e-6 && options.tolerance <= 0.1)) {
+    throw Error("prefilter: the tolerance is not in 1e-6…0.1");
+  }
+}
+
+/// A side of a texel, radians, on average.
+double mean_texel(const sphere::AnyParameterization& p, ChartSize size) {
+  return std::sqrt(p.coverage() / (static_cast<double>(p.charts()) * size.width * size.height));
+}
+
+/// Throws for what can't be convolved.
+void check_values(const Map& source, const Monitor& monitor) {
+  constexpr float kLargest = 1e30f;
+  std::atomic<bool> fine{true};
+  Monitor quiet;
+  quiet.cancelled = monitor.cancelled;
+  parallel_for(
+      source.charts() * source.height(),
+      [&](int i) {
+        const float* row = source.level.chart(i / source.height()).row(i % source.height());
+        int wrong = 0;
+        for (int x = 0; x < source.width() * source.channels(); ++x)
+          wrong += std::fabs(row[x]) <= kLargest ? 0 : 1;
+        if (wrong > 0) fine = false;
+      },
+      quiet);
+  if (!fine) throw Error("prefilter: the map has values that are NaN, infinite, or beyond ±1e30");
+}
+
+/// See PrefilterOptions::mirror_filter.
+Filter mirror_filter(const PrefilterPlan::Tables& t, const Map& level) {
+  if (t.options.mirror_filter != Filter::automatic) return t.options.mirror_filter;
+  const double source = mean_texel(t.source.parameterization, t.source.size);
+  const double texel = mean_texel(level.parameterization, {level.width(), level.height()});
+  return texel < 1.5 * source ? Filter::bicubic : Filter::automatic;
+}
+
+}  // namespace
+
+HarmonicLevel::HarmonicLevel(const WidenedLobe& widened, int number, int moments_width)
+    : index(number),
+      degree(static_cast<int>(widened.zonal.size()) - 1),
+      grid{fft_length(static_cast<int>(2.2 * degree) + 8), 0},
+      fft(grid.width),
+      latitudes(grid.width / 2, degree),
+      zonal(widened.zonal.begin(), widened.zonal.end()),
+      lobe(widened.lobe),
+      scale(1 / widened.lobe.integral()) {
+  if (widened.sigma > 0) sampled.emplace_back(lobe);
+  grid.height = grid.width / 2;
+  for (int m = 0; m <= degree; ++m) {
+    const double shift = kPi * m * (1.0 / grid.width - 1.0 / moments_width);
+    // The B-spline's transform along the row, and the 6 of to_spline_columns.
+    const double spline = 6 * 3 / (2 + std::cos(2 * kPi * m / grid.width));
+    turn.push_back(static_cast<float>(spline * std::cos(shift)));
+    turn.push_back(static_cast<float>(spline * std::sin(shift)));
+  }
+}
+
+PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyParameterization& target,
+                             std::vector<PrefilterLevel> levels, const PrefilterOptions& options) {
+  check(source, levels, options);
+  auto tables = std::make_shared<Tables>(Tables{source, target, std::move(levels), options});
+  // How fine each lobe is decides on the grid.
+  const double source_texel = mean_texel(source.parameterization, source.size);
+  std::vector<std::optional<WidenedLobe>> lobes(tables->levels.size());
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    const PrefilterLevel& level = tables->levels[i];
+    if (level.lobe.mirror()) continue;
+    lobes[i] =
+        widen(level.lobe, std::max(source_texel, mean_texel(target, level.size)), options.tolerance / 5);
+    tables->degree = std::max(tables->degree, static_cast<int>(lobes[i]->zonal.size()) - 1);
+  }
+  if (tables->degree > 0) tables->moments.emplace_back(source.parameterization, source.size, tables->degree);
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    if (!lobes[i]) {
+      tables->methods.push_back({"resample", 0, {}, tables->levels[i].lobe, 0});
+      continue;
+    }
+    tables->harmonic.emplace_back(*lobes[i], static_cast<int>(i), tables->moments[0].width);
+    const HarmonicLevel& level = tables->harmonic.back();
+    tables->methods.push_back({"harmonics", level.degree, level.grid, lobes[i]->lobe, lobes[i]->sigma});
+  }
+  if (!tables->harmonic.empty()) {
+    for (int m = 0; m <= tables->degree; ++m) tables->recurrences.emplace_back(m, tables->degree);
+    const MomentPlan& moments = tables->moments[0];
+    tables->moments_fft.emplace_back(moments.width);
+    tables->moments_latitudes.emplace_back(moments.height, tables->degree);
+    for (int m = 0; m <= tables->degree; ++m) {
+      const double x = kPi * m / moments.width;
+      const bool box = moments.way == MomentPlan::Way::spread_boxes && m > 0;
+      tables->order_factors.push_back(static_cast<float>(box ? std::sin(x) / x : 1.0));
+    }
+  }
+  tables_ = std::move(tables);
+}
+
+const std::vector<PrefilterMethod>& PrefilterPlan::methods() const {
+  return tables_->methods;
+}
+
+std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) const {
+  const Tables& t = *tables_;
+  if (!(source.parameterization == t.source.parameterization) || source.width() != t.source.size.width ||
+      source.height() != t.source.size.height || source.channels() != t.source.channels) {
+    throw Error("prefilter: the map has another shape than the plan was made for");
+  }
+  std::vector<Map> results;
+  for (const PrefilterLevel& level : t.levels) {
+    Map& map = results.emplace_back(t.target.at_size(level.size.width, level.size.height), level.size.width,
+                                    level.size.height, source.channels());
+    map.channel_names = source.channel_names;
+    map.orientation = t.options.orientation;
+  }
+  check_values(source, monitor);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (t.methods[i].name != "resample") continue;
+    ResampleOptions how;
+    how.filter = mirror_filter(t, results[i]);
+    how.monitor.cancelled = monitor.cancelled;
+    resample(source, results[i], how);
+  }
+  if (!t.harmonic.empty()) run_harmonics(t, source, results, monitor);
+  if (t.options.scale == LobeScale::integral) {
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (!t.levels[i].lobe.mirror()) scale(results[i], static_cast<float>(t.levels[i].lobe.integral()));
+    }
+  }
+  return results;
+}
+
+std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
+                               std::vector<PrefilterLevel> levels, const PrefilterOptions& options,
+                               const Monitor& monitor) {
+  const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
+  return PrefilterPlan(shape, target, std::move(levels), options).run(source, monitor);
+}
+
+}  // namespace welkin

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "welkin/base/parallel.h"
+#include "welkin/lobe/lobe.h"
+#include "welkin/map/filter.h"
+#include "welkin/map/map.h"
+
+/// Pre-filtering: a map averaged with a lobe about every direction, so that lighting a material is one
+/// look-up.
+///
+/// A level's texel in direction r holds ∫ w(1 − r·l) L(l) dω / ∫ w dω, where L is constant over the solid
+/// angle of each of the source's texels (0 where the source shows nothing). docs/prefiltering.md has the
+/// methods and their errors.
+namespace welkin {
+
+/// One result: a size and what its texels hold.
+struct PrefilterLevel {
+  ChartSize size;
+  lobe::AnyLobe lobe;
+};
+
+/// The pictures that a plan is made for.
+struct PrefilterShape {
+  sphere::AnyParameterization parameterization;
+  ChartSize size;
+  int channels = 3;
+};
+
+/// What a level's values are.
+enum class LobeScale {
+  average,   ///< ∫ w L dω / ∫ w dω: a constant map stays as it is. What engines expect.
+  integral,  ///< ∫ w L dω: of `lambert` the irradiance, of `phong` the sum of Heidrich & Seidel 1999
+};
+
+struct PrefilterOptions {
+  /// Aim for the relative RMS error of every level, 1e-6 … 0.1. What is reached is measured, not guaranteed
+  /// (docs/prefiltering.md).
+  double tolerance = 1e-3;
+  /// Of the results: Map::orientation.
+  Matrix3 orientation = {};
+  LobeScale scale = LobeScale::average;
+  /// How a mirror's level is read. `automatic`: bicubic where the source is about as fine as the level,
+  /// averaged over the level's texels where it is finer.
+  Filter mirror_filter = Filter::automatic;
+};
+
+/// How a level is computed.
+struct PrefilterMethod {
+  std::string name;  ///< `resample`, `harmonics`
+  int degree = 0;    ///< of the harmonics
+  ChartSize grid;    ///< where they are summed up, before the spline
+  /// What the level is filtered with: the level's lobe, or where that is narrower than texels, a table of it
+  /// blurred by a Gaussian of this σ in radians (widen.h). The reference for the level is brute force with
+  /// this one.
+  lobe::AnyLobe lobe;
+  double widened = 0;
+};
+
+/// Everything that depends on sizes and lobes alone, kept for any number of maps: sequences and probe grids
+/// pay for it once. Never changes; safe from many threads.
+class PrefilterPlan {
+ public:
+  /// Throws Error for sizes below 1, tolerances out of range, and levels whose tables would not fit in
+  /// memory.
+  PrefilterPlan(const PrefilterShape& source, const sphere::AnyParameterization& target,
+                std::vector<PrefilterLevel> levels, const PrefilterOptions& options = {});
+
+  /// The levels of a map of the plan's source shape (Error when it is another), which must have its borders
+  /// filled; the results' are not. Throws Error for values that aren't finite, and for magnitudes over 1e30;
+  /// Cancelled. Results are never negative where the source isn't. The same numbers whatever the number of
+  /// threads.
+  std::vector<Map> run(const Map& source, const Monitor& monitor = {}) const;
+
+  const std::vector<PrefilterMethod>& methods() const;
+
+  struct Tables;
+
+ private:
+  std::shared_ptr<const Tables> tables_;
+};
+
+/// Plans and runs once.
+std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
+                               std::vector<PrefilterLevel> levels, const PrefilterOptions& options = {},
+                               const Monitor& monitor = {});
+
+}  // namespace welkin

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "welkin/lobe/roughness_curve.h"
+#include "welkin/prefilter/prefilter.h"
+
+namespace welkin {
+
+/// The levels of a chain: `count` of them from `finest` down (chain_size), level k for the lobe at the
+/// curve's roughness there; of a lobe that is defined only above some roughness (charlie), that one where the
+/// curve is below. Throws Error: a lobe without roughness, a list for another number of levels.
+std::vector<PrefilterLevel> roughness_levels(const lobe::AnyLobe& lobe, const lobe::RoughnessCurve& curve,
+                                             ChartSize finest, int count);
+
+/// The lobe's own roughness, or none where it has none: 1/exponent of phong.
+std::optional<double> roughness_of(const lobe::AnyLobe& lobe);
+
+}  // namespace welkin

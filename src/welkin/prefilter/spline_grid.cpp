@@ -1,0 +1,75 @@
+#include "welkin/prefilter/spline_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+namespace welkin::prefilter {
+
+void to_spline_columns(Level& grid, int first, int last) {
+  const float z = static_cast<float>(std::sqrt(3.0) - 2);
+  constexpr int kReach = 14;  // |z|^14 = 1e-8
+  const ImageView<float> chart = grid.chart(0);
+  const int height = grid.height(), n = grid.channels();
+  const int count = (last - first) * n;
+  const std::ptrdiff_t near = static_cast<std::ptrdiff_t>(first) * n;
+  const std::ptrdiff_t far = near + static_cast<std::ptrdiff_t>(grid.width() / 2) * n;
+  // Row k of the circle: down the near meridian, then up the far one.
+  const auto row = [&](int k) {
+    const int around = (k % (2 * height) + 2 * height) % (2 * height);
+    return around < height ? chart.row(around) + near : chart.row(2 * height - 1 - around) + far;
+  };
+  std::vector<float> state(static_cast<std::size_t>(count));
+  float* s = state.data();
+  float power = z;
+  for (int k = 1; k <= kReach; ++k, power *= z) {
+    const float* from = row(-k);
+    for (int i = 0; i < count; ++i) s[i] += power * from[i];
+  }
+  for (int k = 0; k < 2 * height; ++k) {
+    float* at = row(k);
+    for (int i = 0; i < count; ++i) at[i] += k == 0 ? s[i] : 0.0f;
+    if (k == 0) continue;
+    const float* before = row(k - 1);
+    for (int i = 0; i < count; ++i) at[i] += z * before[i];
+  }
+  // Backward: c[k] = z (c[k + 1] − c⁺[k]), beginning with −z Σ zʲ c⁺[j − 1].
+  std::fill(state.begin(), state.end(), 0.0f);
+  power = -z;
+  for (int j = 0; j <= kReach; ++j, power *= z) {
+    const float* from = row(j - 1);
+    for (int i = 0; i < count; ++i) s[i] += power * from[i];
+  }
+  std::memcpy(row(-1), s, static_cast<std::size_t>(count) * sizeof(float));
+  for (int k = 2 * height - 2; k >= 0; --k) {
+    float* at = row(k);
+    const float* after = row(k + 1);
+    for (int i = 0; i < count; ++i) at[i] = z * (after[i] - at[i]);
+  }
+}
+
+void fill_latlong_border(Level& grid) {
+  const ImageView<float> chart = grid.chart(0);
+  const int width = grid.width(), height = grid.height(), n = grid.channels();
+  const std::ptrdiff_t half = static_cast<std::ptrdiff_t>(width / 2) * n, row_length = 2 * half;
+  const auto copy = [](float* to, const float* from, std::ptrdiff_t values) {
+    std::memcpy(to, from, static_cast<std::size_t>(values) * sizeof(float));
+  };
+  for (int b = 0; b < kBorder; ++b) {
+    const int across = std::min(b, height - 1);
+    for (const auto& [to, from] : {std::pair(chart.row(-1 - b), chart.row(across)),
+                                   std::pair(chart.row(height + b), chart.row(height - 1 - across))}) {
+      copy(to, from + half, half);
+      copy(to + half, from, half);
+    }
+  }
+  const std::ptrdiff_t border = static_cast<std::ptrdiff_t>(kBorder) * n;
+  for (int y = -kBorder; y < height + kBorder; ++y) {
+    float* at = chart.row(y);
+    copy(at - border, at + row_length - border, border);
+    copy(at + row_length, at, border);
+  }
+}
+
+}  // namespace welkin::prefilter

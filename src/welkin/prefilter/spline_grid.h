@@ -1,0 +1,18 @@
+#pragma once
+
+#include "welkin/map/map.h"
+
+/// A smooth function on a lat-long grid, read by a cubic spline.
+namespace welkin::prefilter {
+
+/// Columns [first, last) of the western half and their counterparts half a turn on: values become
+/// coefficients of the cubic B-spline along the meridian, the great circle that the two halves make (M.
+/// Unser, A. Aldroubi & M. Eden, "B-spline signal processing", 1993, part I, eqs. 2.5; poles z = √3 − 2).
+/// Values must have been multiplied by 6; those along rows are coefficients already.
+void to_spline_columns(Level& grid, int first, int last);
+
+/// Fills the border of a lat-long level: left and right go around, past a pole rows go on down the opposite
+/// meridian.
+void fill_latlong_border(Level& grid);
+
+}  // namespace welkin::prefilter

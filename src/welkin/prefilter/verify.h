@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "welkin/prefilter/prefilter.h"
+
+/// What pre-filtered levels are worth: measured, not promised.
+namespace welkin {
+
+struct VerifyOptions {
+  /// How the levels were made.
+  PrefilterOptions prefilter;
+  /// Texels of every level that chance picks, each as likely, none twice; all where a level has no more.
+  int random_texels = 64;
+  /// Texels of every level of at least `hot` of its highest luminance; evenly spread over the order of
+  /// luminance where there are more than `most_hot`. Besides them, the texels in the direction of the
+  /// source's brightest lights.
+  int most_hot = 64;
+  double hot = 0.5;
+  std::uint64_t seed = 1;
+  Monitor monitor = {};
+};
+
+/// Texels of a level against PrefilterReference. All numbers are over the channels together, but for A where
+/// there are others.
+struct ReferenceErrors {
+  int random_texels = 0, hot_texels = 0;  ///< compared
+  /// √(Σ Ω |error|²) / √(Σ Ω |reference|²) over the random texels, Ω their solid angles. 0 where both are 0.
+  double relative_rmse = 0;
+  /// Largest |error| / |reference| of all texels, where the reference counts as no smaller than 1e-6 of the
+  /// source's mean |radiance|.
+  double maximum = 0;
+  Vec3d maximum_direction{0, 0, 1};  ///< in the world
+};
+
+struct LevelVerification {
+  /// None of a mirror's level, which is the source at other places, not a sum with a lobe.
+  std::optional<ReferenceErrors> reference;
+  /// ∫ level dω / ∫ source dω, of the channel where it is farthest from 1; as 1 + difference / ∫ |source| dω,
+  /// which is the same where nothing is negative, and 1 where there is no light. A level has too few texels
+  /// for a quadrature, so its function is computed again, by the same methods, where one is exact (see
+  /// verify_energy.h); a mirror's own texels are summed up. None where no quadrature is good enough.
+  std::optional<double> energy;
+  /// Largest |value − 1| of all texels of the same level made of a source that is 1 everywhere. Of a source
+  /// that shows a part of the sphere: |value − reference| at the texels compared; none of its mirror.
+  std::optional<double> furnace;
+};
+
+/// Sources with more texels are refused: the reference would need over 13 GB.
+inline constexpr std::int64_t kMostVerifiedTexels = std::int64_t{1} << 26;
+
+/// Holds `levels` (as PrefilterPlan::run made them of `source`, one for each of `lobes`) to the definition.
+/// The same numbers whatever the number of threads, and for the same seed. Takes some 3 ms for every texel
+/// compared and million texels of source, and core. Throws Error: a source of over kMostVerifiedTexels, and
+/// as PrefilterPlan does; Cancelled.
+std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> levels,
+                                                std::span<const lobe::AnyLobe> lobes,
+                                                const VerifyOptions& options = {});
+
+/// Throws as verify_prefilter does for a source of that size.
+void check_verifiable(const PrefilterShape& source);
+
+}  // namespace welkin

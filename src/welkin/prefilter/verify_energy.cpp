@@ -1,0 +1,110 @@
+#include "welkin/prefilter/verify_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "welkin/map/row_bands.h"
+
+namespace welkin::prefilter {
+namespace {
+
+constexpr int kLeastRows = 192, kMostRows = 512;
+
+/// Sums value(texel's value)·Ω of each channel, in an order that depends on the size alone.
+template <class Value>
+std::vector<double> sum_texels(const Map& map, const Value& value) {
+  const auto channels = static_cast<std::size_t>(map.channels());
+  const RowBands bands(map.charts() * map.height());
+  std::vector<std::vector<double>> sums(static_cast<std::size_t>(bands.count), std::vector<double>(channels));
+  parallel_for(bands.count, [&](int band) {
+    std::vector<double>& sum = sums[static_cast<std::size_t>(band)];
+    std::vector<float> omega(static_cast<std::size_t>(map.width()));
+    for (int row = bands.first(band); row < bands.first(band + 1); ++row) {
+      const int chart = row / map.height(), y = row % map.height();
+      texel_solid_angles(map.parameterization, map.width(), map.height(), chart, y, omega.data());
+      const float* texel = map.level.chart(chart).row(y);
+      for (const float each : omega) {
+        // What isn't a place of the map may hold anything.
+        if (each > 0) {
+          for (std::size_t c = 0; c < channels; ++c) {
+            sum[c] += value(static_cast<double>(texel[c])) * static_cast<double>(each);
+          }
+        }
+        texel += channels;
+      }
+    }
+  });
+  std::vector<double> total(channels);
+  for (const std::vector<double>& sum : sums) {
+    for (std::size_t c = 0; c < channels; ++c) total[c] += sum[c];
+  }
+  return total;
+}
+
+/// ∫ of a lat-long map by Fejér's first rule over its rows.
+std::vector<double> fejer_integral(const Map& map) {
+  const int rows = map.height();
+  const auto channels = static_cast<std::size_t>(map.channels());
+  std::vector<double> total(channels);
+  for (int j = 0; j < rows; ++j) {
+    double weight = 1;
+    for (int k = 1; k <= rows / 2; ++k) {
+      weight -= 2 * std::cos(2 * k * (j + 0.5) * kPi / rows) / (4.0 * k * k - 1);
+    }
+    weight *= 2.0 / rows * 2 * kPi / map.width();
+    const float* texel = map.level.chart(0).row(j);
+    for (int x = 0; x < map.width(); ++x) {
+      for (std::size_t c = 0; c < channels; ++c) total[c] += weight * static_cast<double>(*texel++);
+    }
+  }
+  return total;
+}
+
+}  // namespace
+
+std::vector<double> integral_of_texels(const Map& map) {
+  return sum_texels(map, [](double value) { return value; });
+}
+
+std::vector<double> integral_of_magnitudes(const Map& map) {
+  return sum_texels(map, [](double value) { return std::fabs(value); });
+}
+
+std::vector<std::optional<std::vector<double>>> integrals_of_levels(const Map& source,
+                                                                    std::span<const lobe::AnyLobe> lobes,
+                                                                    const VerifyOptions& options) {
+  std::vector<std::optional<std::vector<double>>> integrals(lobes.size());
+  const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
+  PrefilterOptions prefilter = options.prefilter;
+  prefilter.scale = LobeScale::average;
+
+  // Lobes for a lat-long grid: all at once.
+  prefilter.orientation = {};
+  std::vector<PrefilterLevel> levels;
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    if (lobes[i].mirror()) continue;
+    const double rows = std::ceil(16 / lobes[i].width() / 2) * 2;
+    if (rows > kMostRows) continue;
+    const int height = std::max(static_cast<int>(rows), kLeastRows);
+    levels.push_back({{2 * height, height}, lobes[i]});
+    which.push_back(i);
+  }
+  if (!levels.empty()) {
+    const PrefilterPlan plan(shape, sphere::AnyParameterization::make("latlong"), levels, prefilter);
+    const std::vector<Map> maps = plan.run(source, {nullptr, options.monitor.cancelled});
+    for (std::size_t k = 0; k < maps.size(); ++k) integrals[which[k]] = fejer_integral(maps[k]);
+  }
+
+  // Narrower ones at the source's texels.
+  if (!source.parameterization.whole_world()) return integrals;
+  prefilter.orientation = source.orientation;
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    if (integrals[i] || lobes[i].mirror()) continue;
+    const PrefilterPlan plan(shape, source.parameterization, {{shape.size, lobes[i]}}, prefilter);
+    integrals[i] = integral_of_texels(plan.run(source, {nullptr, options.monitor.cancelled}).front());
+  }
+  return integrals;
+}
+
+}  // namespace welkin::prefilter

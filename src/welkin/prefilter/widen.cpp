@@ -1,0 +1,80 @@
+#include "welkin/prefilter/widen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "welkin/base/number_text.h"
+#include "welkin/lobe/zonal.h"
+#include "welkin/math/scalar.h"
+
+namespace welkin::prefilter {
+namespace {
+
+/// −ln of the coefficient that a lobe may have at most at the degree of the texels.
+constexpr double kDecay = 1.25;
+
+constexpr int kMostDegree = 8192;
+
+/// Σ (2l + 1) λ_l P_l(1 − s) / 4π.
+double series(const std::vector<double>& zonal, double s) {
+  // D_l = P_l − P_(l−1): (l+1) D_(l+1) = l D_l − (2l+1) s P_l keeps the precision of a small s.
+  double p = 1, difference = 0, sum = 0;
+  for (std::size_t l = 0; l < zonal.size(); ++l) {
+    const double n = static_cast<double>(l);
+    sum += (2 * n + 1) * zonal[l] * p;
+    difference = (n * difference - (2 * n + 1) * s * p) / (n + 1);
+    p += difference;
+  }
+  return sum / (4 * kPi);
+}
+
+}  // namespace
+
+int degree_of(const std::vector<double>& zonal, double tolerance) {
+  double total = 0;
+  for (std::size_t l = 0; l < zonal.size(); ++l)
+    total += (2 * static_cast<double>(l) + 1) * zonal[l] * zonal[l];
+  double rest = 0;
+  for (std::size_t l = zonal.size(); l-- > 1;) {
+    rest += (2 * static_cast<double>(l) + 1) * zonal[l] * zonal[l];
+    if (rest > tolerance * tolerance * total) return static_cast<int>(l);
+  }
+  return 1;
+}
+
+WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
+  const int finest = std::clamp(static_cast<int>(kPi / texel), 1, kMostDegree / 4);
+  const int most = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMostDegree);
+  std::vector<double> zonal = lobe::zonal_coefficients(lobe, std::min(most, 4 * finest + 192));
+  if (static_cast<std::size_t>(finest) >= zonal.size() ||
+      std::fabs(zonal[static_cast<std::size_t>(finest)]) <= std::exp(-kDecay)) {
+    const int degree = degree_of(zonal, tolerance);
+    zonal.resize(static_cast<std::size_t>(degree) + 1);
+    return {lobe, std::move(zonal), 0};
+  }
+  const double square = 2 * (kDecay + std::log(std::fabs(zonal[static_cast<std::size_t>(finest)]))) /
+                        (static_cast<double>(finest) * (finest + 1));
+  for (std::size_t l = 0; l < zonal.size(); ++l) {
+    zonal[l] *= std::exp(-0.5 * square * static_cast<double>(l) * (static_cast<double>(l) + 1));
+  }
+  const int degree = degree_of(zonal, 1e-9);
+  zonal.resize(static_cast<std::size_t>(degree) + 1);
+  // The lobe's values, from its axis outward, dense where it is steep.
+  std::vector<double> degrees, values;
+  constexpr int kPoints = 3000;
+  const double sigma = std::sqrt(square), core = std::max(sigma, lobe.width());
+  for (int i = 0; i <= kPoints; ++i) {
+    const double part = static_cast<double>(i) / kPoints;
+    const double angle = std::min(kPi, core * std::sinh(part * std::asinh(kPi / core)));
+    const double sine = std::sin(angle / 2);
+    degrees.push_back(angle * 180 / kPi);
+    values.push_back(std::max(0.0, series(zonal, 2 * sine * sine)));
+  }
+  degrees.back() = 180;
+  zonal.resize(static_cast<std::size_t>(degree_of(zonal, tolerance)) + 1);
+  return {
+      lobe::AnyLobe::from_table(lobe.spec() + " widened by " + number_text(sigma) + " rad", degrees, values),
+      std::move(zonal), sigma};
+}
+
+}  // namespace welkin::prefilter

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "welkin/lobe/lobe.h"
+
+/// Lobes that are narrower than texels.
+///
+/// Between a source's texels and between a level's there is nothing to be known, and a lobe much narrower
+/// than both would show the texels' edges, or alias. So such a lobe is blurred by a Gaussian just wide
+/// enough: at the degree π/h of the texel size h, its coefficient becomes e^−5⁄4, as a Gaussian of σ = h/2
+/// alone has it. Wider lobes stay as they are.
+namespace welkin::prefilter {
+
+struct WidenedLobe {
+  lobe::AnyLobe lobe;         ///< a table when it was widened
+  std::vector<double> zonal;  ///< its coefficients, as far as they matter
+  double sigma = 0;           ///< of the Gaussian, radians; 0 when the lobe is as it was
+};
+
+/// The lobe as wide as texels of `texel` radians need it. `tolerance`: degrees whose coefficients matter less
+/// are left out (see degree_of). Not for mirrors.
+WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance);
+
+/// The least degree for which what is left out of the lobe is, in the mean square over the sphere, a
+/// `tolerance` of it.
+int degree_of(const std::vector<double>& zonal, double tolerance);
+
+}  // namespace welkin::prefilter
