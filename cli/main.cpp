@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "always", "never"}));
   cli::add_info(app);
   cli::add_convert(app);
+  cli::add_bake(app);
   cli::add_sample(app);
   cli::add_diff(app);
   cli::add_synth(app);

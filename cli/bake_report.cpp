@@ -1,0 +1,119 @@
+#include "bake_report.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+namespace welkin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string size_text(ChartSize size) {
+  return fmt::format("{}×{}", size.width, size.height);
+}
+
+/// Padded on the left to a number of characters, of which × is one and two bytes.
+std::string right(const std::string& text, std::size_t width) {
+  std::size_t characters = 0;
+  for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xc0) != 0x80 ? 1 : 0;
+  return std::string(width - std::min(width, characters), ' ') + text;
+}
+
+template <class T>
+std::string or_dash(const char* format, const std::optional<T>& value) {
+  return value ? fmt::format(fmt::runtime(format), *value) : "–";
+}
+
+std::string method_text(const PrefilterMethod& method) {
+  return method.degree > 0 ? fmt::format("{} {}", method.name, method.degree) : method.name;
+}
+
+template <class T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json json_of(const LevelVerification& v) {
+  ordered_json report;
+  if (v.reference) {
+    const Vec3d& d = v.reference->maximum_direction;
+    report = {{"random_texels", v.reference->random_texels},
+              {"hot_texels", v.reference->hot_texels},
+              {"relative_rmse", v.reference->relative_rmse},
+              {"max_relative", v.reference->maximum},
+              {"max_relative_direction", {d.x, d.y, d.z}}};
+  }
+  report["energy"] = or_null(v.energy);
+  report["furnace"] = or_null(v.furnace);
+  return report;
+}
+
+}  // namespace
+
+void BakeReport::print() const {
+  const BakeLevels& m = *made;
+  const std::size_t count = m.levels.size();
+  fmt::print("{}: {}, {} of {}, {} {}\n", printable(out), printable(m.notes.lobe), m.shape->text(),
+             size_text(m.levels.front().size), count, count == 1 ? "level" : "levels");
+  fmt::print("level  {}  roughness  {:<16}", right("size", 11), "method");
+  if (!verification.empty()) fmt::print("  rel. RMSE %    max %    energy   furnace");
+  fmt::print("\n");
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string roughness =
+        i < m.notes.roughness.size() ? fmt::format("{:.6g}", m.notes.roughness[i]) : "–";
+    fmt::print("{:>5}  {}  {}  {:<16}", i, right(size_text(m.levels[i].size), 11), right(roughness, 9),
+               method_text(methods[i]));
+    if (!verification.empty()) {
+      const LevelVerification& v = verification[i];
+      std::optional<double> rmse, maximum;
+      if (v.reference) rmse = 100 * v.reference->relative_rmse;
+      if (v.reference) maximum = 100 * v.reference->maximum;
+      fmt::print("  {}  {}  {}  {}", right(or_dash("{:.3g}", rmse), 11), right(or_dash("{:.3g}", maximum), 7),
+                 right(or_dash("{:.6f}", v.energy), 8), right(or_dash("{:.1e}", v.furnace), 8));
+    }
+    fmt::print("\n");
+  }
+  fmt::print("read {:.3f} s, planned {:.3f} s, filtered {:.3f} s, ", read_seconds, plan_seconds,
+             compute_seconds);
+  if (!verification.empty()) fmt::print("verified {:.3f} s, ", verify_seconds);
+  fmt::print("wrote {:.3f} s\n", write_seconds);
+}
+
+void BakeReport::print_json() const {
+  const BakeLevels& m = *made;
+  ordered_json report{
+      {"in", in},
+      {"out", out},
+      {"lobe", m.notes.lobe},
+      {"roughness_curve", m.notes.curve.empty() ? ordered_json() : ordered_json(m.notes.curve)},
+      {"normalisation", m.notes.normalisation},
+      {"parameterization", m.shape->text()},
+      {"tolerance", options.tolerance}};
+  for (std::size_t i = 0; i < m.levels.size(); ++i) {
+    ordered_json level{{"level", i},
+                       {"width", m.levels[i].size.width},
+                       {"height", m.levels[i].size.height},
+                       {"lobe", m.levels[i].lobe.spec()}};
+    if (i < m.notes.roughness.size()) level["roughness"] = m.notes.roughness[i];
+    level["method"] = methods[i].name;
+    if (methods[i].degree > 0) level["degree"] = methods[i].degree;
+    if (!verification.empty()) level["verification"] = json_of(verification[i]);
+    report["levels"].push_back(std::move(level));
+  }
+  report["seconds"] = {{"read", read_seconds}, {"plan", plan_seconds}, {"compute", compute_seconds}};
+  if (!verification.empty()) report["seconds"]["verify"] = verify_seconds;
+  report["seconds"]["write"] = write_seconds;
+  fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+void BakeReport::report_misses() const {
+  for (std::size_t i = 0; i < verification.size(); ++i) {
+    const auto& reference = verification[i].reference;
+    if (!reference || reference->relative_rmse <= options.tolerance) continue;
+    tell(fmt::format("welkin: {}: level {}: the relative RMSE, {:.3g} %, is above the tolerance, {:g} %\n",
+                     out, i, 100 * reference->relative_rmse, 100 * options.tolerance));
+  }
+}
+
+}  // namespace welkin::cli
