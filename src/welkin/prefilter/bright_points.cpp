@@ -153,6 +153,8 @@ BrightPoints take_bright_points(Moments& moments, const BrightRule& rule, const 
     sum += each.sum;
     dimmest = std::min(dimmest, static_cast<double>(each.dimmest));
   }
+  if (!(sum < 1e34))
+    throw Error("prefilter: the map has values that are NaN, infinite or too large to be added up");
   const double mean = sum / (static_cast<double>(moments.width) * moments.height * moments.channels);
   dimmest = std::max(dimmest, rule.darkest * sum / (4 * kPi));
   const float least = static_cast<float>(rule.contrast * mean);

@@ -259,7 +259,8 @@ class Tiles {
 
 }  // namespace
 
-void run_harmonics(const Tables& t, const Map& source, std::vector<Map>& results, const Monitor& monitor) {
+std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector<Map>& results,
+                                 const Monitor& monitor) {
   Moments moments = moments_of(source, t.moments[0], monitor);
   const BrightPoints bright = take_bright_points(moments, {}, monitor);
 
@@ -313,6 +314,7 @@ void run_harmonics(const Tables& t, const Map& source, std::vector<Map>& results
             .rows(band.chart, band.row, band.rows);
       },
       monitor);
+  return std::move(moments.reduced);
 }
 
 }  // namespace welkin

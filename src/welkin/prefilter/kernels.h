@@ -12,7 +12,7 @@
 /// parity 0 is the row plus its mirror image about the equator, parity 1 the row less its mirror image.
 namespace welkin::prefilter {
 
-/// Masses of rows of a lat-long picture; see RowSpread.
+/// Masses of rows of a lat-long picture; see RowSpread and ColumnSpread.
 struct SpreadRows {
   const float* texels;        ///< of row 0
   std::ptrdiff_t row_stride;  ///< in values
@@ -20,7 +20,23 @@ struct SpreadRows {
   int height;        ///< rows of masses
   const int* first;  ///< see RowSpread
   const RowSpread::Tap* taps;
-  bool points;  ///< spread each mass over three columns
+  int columns;  ///< of the picture for one of the masses'
+  const float* along;
+  int along_count;
+  int reach;  ///< columns before a mass's own first one that it takes in
+
+  /// Where not null: a picture of height × width/columns texels to fill, see MomentPlan::reduces.
+  float* reduced;
+  std::ptrdiff_t reduced_stride;
+  int picture_height;
+  const float* shares;  ///< of each row of the picture in a texel of `reduced`, over its columns
+
+  /// Values of work space that the kernel needs.
+  std::size_t work() const {
+    return static_cast<std::size_t>(channels) *
+               static_cast<std::size_t>(width + 2 * reach + 18 * (columns > 128 ? columns : 128)) * 16 +
+           4096;
+  }
 };
 
 struct Kernels {

@@ -37,61 +37,101 @@ template <class Arch>
 struct KernelsOf {
   using V = Lanes<float, Arch>;
 
-  /// One row of masses, channels interleaved.
-  static void spread_row(const SpreadRows& r, int row, float* out, float* padded) {
-    const int n = r.channels, count = r.width * n, half = count / 2;
-    float* mixed = padded + n;  // a texel more on either side
-    constexpr int kChunk = 1024;
-    const RowSpread::Tap *begin = r.taps + r.first[row], *end = r.taps + r.first[row + 1];
-    for (int start = 0; start < count;) {
-      const int limit = start < half ? half : count;
-      const int stop = start + kChunk < limit ? start + kChunk : limit;
+  /// Columns [begin, end) of a row of masses, channels interleaved, before they are spread along the row.
+  static void mix_rows(const SpreadRows& r, int row, int begin, int end, float* out) {
+    const int n = r.channels, half = r.width / 2 * n;
+    const RowSpread::Tap *first = r.taps + r.first[row], *last = r.taps + r.first[row + 1];
+    for (int start = begin * n; start < end * n;) {
+      const int limit = start < half ? half : 2 * half;
+      const int stop = end * n < limit ? end * n : limit;
       const std::ptrdiff_t across = start < half ? half : -half;
       for (int i = start; i < stop; i += 32) {
         V sum[4] = {V(0.0f), V(0.0f), V(0.0f), V(0.0f)};
-        for (const RowSpread::Tap* tap = begin; tap != end; ++tap) {
+        for (const RowSpread::Tap* tap = first; tap != last; ++tap) {
           const float* from = r.texels + tap->row * r.row_stride + (tap->opposite ? across : 0) + i;
           const V weight(tap->weight);
           for (int k = 0; k < 4; ++k) sum[k] = V::fma(weight, V::load(from + 8 * k), sum[k]);
         }
-        for (int k = 0; k < 4; ++k) sum[k].store(mixed + i + 8 * k);
+        for (int k = 0; k < 4; ++k) sum[k].store(out + (i - begin * n) + 8 * k);
       }
       start = stop;
-    }
-    if (!r.points) {
-      std::memcpy(out, mixed, static_cast<std::size_t>(count) * sizeof(float));
-      return;
-    }
-    std::memcpy(padded, mixed + count - n, static_cast<std::size_t>(n) * sizeof(float));
-    std::memcpy(mixed + count, mixed, static_cast<std::size_t>(n) * sizeof(float));
-    // A texel is as wide as a step: 1/24, 22/24, 1/24.
-    const V side(1.0f / 24), middle(22.0f / 24);
-    for (int i = 0; i < count; i += 8) {
-      const V sides = V::load(mixed + i - n) + V::load(mixed + i + n);
-      V::fma(middle, V::load(mixed + i), side * sides).store(out + i);
     }
   }
 
   static void spread_rows(const SpreadRows& r, int pack, float* lanes, float* work) {
-    const int n = r.channels, count = r.width * n;
-    const std::ptrdiff_t row_length = (count + 15) / 8 * 8;
-    float* padded = work + 16 * row_length;
-    const int half = r.height / 2;
-    for (int lane = 0; lane < 16; ++lane) {
-      const int north = pack * 8 + lane % 8;
-      float* row = work + lane * row_length;
-      if (north >= half) {
-        std::memset(row, 0, static_cast<std::size_t>(row_length) * sizeof(float));
-      } else {
-        spread_row(r, lane < 8 ? north : r.height - 1 - north, row, padded);
+    const int kChunk =
+        r.columns > 128 ? r.columns : 128;  // columns of the picture; a power of two, as r.columns
+    const int n = r.channels, half = r.height / 2;
+    const std::ptrdiff_t row_length = kChunk * n + 64;
+    // The rows as they are, with what lies past either end: [channel][column][16].
+    float* rows = work;
+    const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(r.width + 2 * r.reach) * 16;
+    float* mixed = work + plane * n;
+    for (int begin = 0; begin < r.width; begin += kChunk) {
+      const int end = begin + kChunk < r.width ? begin + kChunk : r.width;
+      for (int lane = 0; lane < 16; ++lane) {
+        const int north = pack * 8 + lane % 8;
+        float* row = mixed + lane * row_length;
+        if (north >= half) {
+          std::memset(row, 0, static_cast<std::size_t>(row_length) * sizeof(float));
+        } else {
+          const int at = lane < 8 ? north : r.height - 1 - north;
+          mix_rows(r, at, begin, end, row);
+          if (r.reduced != nullptr) reduce(r, at, begin, end, mixed + 16 * row_length);
+        }
+      }
+      for (int x = begin; x < end; ++x) {
+        for (int c = 0; c < n; ++c) {
+          float* to = rows + c * plane + static_cast<std::ptrdiff_t>(x + r.reach) * 16;
+          const float* from = mixed + (x - begin) * n + c;
+          for (int lane = 0; lane < 16; ++lane) to[lane] = from[lane * row_length];
+        }
       }
     }
-    for (int x = 0; x < r.width; ++x) {
-      for (int c = 0; c < n; ++c) {
-        float* to = lanes + (static_cast<std::ptrdiff_t>(c) * r.width + x) * 16;
-        const float* from = work + x * n + c;
-        for (int lane = 0; lane < 16; ++lane) to[lane] = from[lane * row_length];
+    for (int c = 0; c < n; ++c) {
+      float* at = rows + c * plane;
+      const std::size_t bytes = static_cast<std::size_t>(r.reach) * 16 * sizeof(float);
+      std::memcpy(at, at + static_cast<std::ptrdiff_t>(r.width) * 16, bytes);
+      std::memcpy(at + static_cast<std::ptrdiff_t>(r.width + r.reach) * 16,
+                  at + static_cast<std::ptrdiff_t>(r.reach) * 16, bytes);
+      spread_columns(r, at, lanes + static_cast<std::ptrdiff_t>(c) * (r.width / r.columns) * 16);
+    }
+  }
+
+  /// The mean over the solid angle of the boxes of texels that a row of masses stands for.
+  static void reduce(const SpreadRows& r, int row, int begin, int end, float* mixed) {
+    const int n = r.channels, down = r.picture_height / r.height, across = r.columns;
+    for (int i = begin * n; i < end * n; i += 32) {
+      V sum[4] = {V(0.0f), V(0.0f), V(0.0f), V(0.0f)};
+      for (int k = 0; k < down; ++k) {
+        const float* from = r.texels + (row * down + k) * r.row_stride + i;
+        const V weight(r.shares[row * down + k]);
+        for (int part = 0; part < 4; ++part) sum[part] = V::fma(weight, V::load(from + 8 * part), sum[part]);
       }
+      for (int part = 0; part < 4; ++part) sum[part].store(mixed + (i - begin * n) + 8 * part);
+    }
+    float* to = r.reduced + row * r.reduced_stride + static_cast<std::ptrdiff_t>(begin / across) * n;
+    for (int x = 0; x < (end - begin) / across; ++x, to += n, mixed += across * n) {
+      for (int c = 0; c < n; ++c) {
+        float sum = 0;
+        for (int k = 0; k < across; ++k) sum += mixed[k * n + c];
+        to[c] = sum;
+      }
+    }
+  }
+
+  /// Along the rows: each mass is the sum of the texels around it times `along`.
+  static void spread_columns(const SpreadRows& r, const float* rows, float* lanes) {
+    const int width = r.width / r.columns;
+    for (int x = 0; x < width; ++x, rows += static_cast<std::ptrdiff_t>(r.columns) * 16, lanes += 16) {
+      V low(0.0f), high(0.0f);
+      for (int tap = 0; tap < r.along_count; ++tap) {
+        const V weight(r.along[tap]);
+        low = V::fma(weight, V::load(rows + tap * 16), low);
+        high = V::fma(weight, V::load(rows + tap * 16 + 8), high);
+      }
+      low.store(lanes);
+      high.store(lanes + 8);
     }
   }
 

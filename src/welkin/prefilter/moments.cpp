@@ -204,15 +204,38 @@ void scatter(const Map& map, Moments& moments, const Monitor& monitor) {
 }
 
 void spread(const Map& map, const MomentPlan& plan, Moments& moments, const Monitor& monitor) {
-  const RowSpread& spread = plan.spread[0];
+  const RowSpread& down = plan.rows[0];
+  const ColumnSpread& along = plan.columns[0];
   const ImageView<const float> chart = map.level.chart(0);
-  const SpreadRows rows{chart.data,  chart.row_stride,    map.width(),        map.channels(),
-                        plan.height, spread.first.data(), spread.taps.data(), !moments.boxes};
+  std::vector<float> shares;
+  if (moments.reduced) {
+    const int group = plan.rows_per_mass;
+    for (int row = 0; row < map.height(); ++row) {
+      const auto sine = [&](int y) { return std::sin((y + 0.5) * kPi / map.height()); };
+      double sum = 0;
+      for (int k = 0; k < group; ++k) sum += sine(row / group * group + k);
+      shares.push_back(static_cast<float>(sine(row) / (sum * along.columns)));
+    }
+  }
+  const SpreadRows rows{.texels = chart.data,
+                        .row_stride = chart.row_stride,
+                        .width = map.width(),
+                        .channels = map.channels(),
+                        .height = plan.height,
+                        .first = down.first.data(),
+                        .taps = down.taps.data(),
+                        .columns = along.columns,
+                        .along = along.along.data(),
+                        .along_count = static_cast<int>(along.along.size()),
+                        .reach = along.reach,
+                        .reduced = moments.reduced ? moments.reduced->level.chart(0).data : nullptr,
+                        .reduced_stride = moments.reduced ? moments.reduced->level.chart(0).row_stride : 0,
+                        .picture_height = map.height(),
+                        .shares = shares.data()};
   parallel_for(
       moments.packs,
       [&](int pack) {
-        Buffer work((static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.channels()) + 64) *
-                    18);
+        Buffer work(rows.work());
         kernels().spread_rows(rows, pack, moments.at(pack, 0), work.data());
       },
       monitor);
@@ -295,27 +318,70 @@ RowSpread::RowSpread(int columns, int picture_rows, int rows) {
   first.push_back(static_cast<int>(taps.size()));
 }
 
+ColumnSpread::ColumnSpread(int count) : columns(count) {
+  if (columns == 1) {
+    reach = 1;
+    along = {1.0f / 24, 22.0f / 24, 1.0f / 24};
+    return;
+  }
+  // The cubic Lagrange kernel, two columns to either side of a column's middle, averaged over each texel by
+  // Gauss's rule of three points. A texel lies at (i + ½)/columns − ½ from the middle of the column that
+  // holds it.
+  const auto kernel = [](double x) {
+    x = std::fabs(x);
+    if (x < 1) return (1 - x) * (1 + x) * (2 - x) / 2;
+    return x < 2 ? (1 - x) * (2 - x) * (3 - x) / 6 : 0.0;
+  };
+  reach = (3 * columns + 1) / 2;
+  for (int i = -reach; i < columns + reach; ++i) {
+    const double middle = (i + 0.5) / columns - 0.5, half = 0.5 / columns;
+    // A texel in the middle of an even number of columns can straddle a kink of the kernel: each half by
+    // itself.
+    double sum = 0;
+    for (double side : {-0.5, 0.5}) {
+      for (const auto& [place, weight] : {std::pair(-0.774596669241483, 5.0 / 18), std::pair(0.0, 8.0 / 18),
+                                          std::pair(0.774596669241483, 5.0 / 18)}) {
+        sum += weight / 2 * kernel(middle + side * half + place * half / 2);
+      }
+    }
+    along.push_back(static_cast<float>(sum));
+  }
+}
+
 MomentPlan::MomentPlan(const AnyParameterization& source, ChartSize size, int degree) {
-  const int least = static_cast<int>(1.44 * degree) + 8;
+  const int least = std::max(16, static_cast<int>(1.42 * degree));
   const bool latlong = source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width);
   if (!latlong) {
     width = fft_length(std::max(2 * least, 64));
     height = width / 2;
     return;
   }
-  width = size.width;
-  // The picture's own rows, or an even part of them, where they are enough.
+  // The picture's own rows and columns, or an even part of them, where they are enough.
   height = size.height;
   while (height % 2 == 0 && height / 2 >= least) height /= 2;
   if (height % 2 != 0 || height < least) height = (std::max(least, 16) + 1) / 2 * 2;
-  // Three points stand for a box within 1e-3 up to an order where they are a radian apart.
+  int columns = 1;
+  while (size.width % (4 * columns) == 0 && size.width / (2 * columns) >= 2 * least) columns *= 2;
+  width = size.width / columns;
+  // Three points stand for a box within 1e-3 up to an order where they are 2.3/2 radians apart.
   way = degree <= 2.3 * width / (2 * kPi) ? Way::spread_points : Way::spread_boxes;
-  spread.emplace_back(size.width, size.height, height);
+  rows_per_mass = size.height % height == 0 ? size.height / height : 0;
+  rows.emplace_back(size.width, size.height, height);
+  this->columns.emplace_back(columns);
+  if (way == Way::spread_boxes) {
+    this->columns[0].reach = 0;
+    this->columns[0].along = {1.0f};
+    this->columns[0].columns = columns;
+  }
 }
 
 Moments moments_of(const Map& map, const MomentPlan& plan, const Monitor& monitor) {
   Moments moments(plan.width, plan.height, map.channels());
   moments.boxes = plan.way == MomentPlan::Way::spread_boxes;
+  if (plan.reduced) {
+    moments.reduced.emplace(map.parameterization, plan.width, plan.height, map.channels());
+    moments.reduced->orientation = map.orientation;
+  }
   if (plan.way == MomentPlan::Way::scatter) {
     scatter(map, moments, monitor);
   } else {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "welkin/base/parallel.h"
@@ -27,6 +28,8 @@ struct Moments {
   Buffer lanes;
   /// Masses are boxes as wide as a column, not points: their orders need the factor sin x / x, x = πm/width.
   bool boxes = false;
+  /// The map averaged over boxes of its texels, one to a mass; borders not filled. Where asked for.
+  std::optional<Map> reduced;
 
   float* at(int pack, int channel) {
     return lanes.data() + (static_cast<std::ptrdiff_t>(pack) * channels + channel) * width * 16;
@@ -51,11 +54,21 @@ struct RowSpread {
   std::vector<Tap> taps;
 };
 
+/// How texels spread along a row onto columns of masses, a whole number of texels to a column.
+struct ColumnSpread {
+  /// `columns` texels to a column: through the four columns about each place. 1: a texel as wide as the
+  /// column goes to three, 1/24, 22/24 and 1/24.
+  explicit ColumnSpread(int columns);
+  int columns;
+  int reach;                 ///< texels before a column's own first one
+  std::vector<float> along;  ///< weights of the texels from there on
+};
+
 /// How the masses of a map are made: rows and columns of the grid, and the way there.
 struct MomentPlan {
   enum class Way {
-    spread_points,  ///< lat-long: down the rows, then each texel over three columns
-    spread_boxes,   ///< lat-long with columns too wide for that: Moments::boxes
+    spread_points,  ///< lat-long: down the rows, then along them
+    spread_boxes,   ///< lat-long with columns too wide for points: Moments::boxes
     scatter,        ///< any map, texel by texel
   };
   /// For harmonics up to this degree.
@@ -63,7 +76,13 @@ struct MomentPlan {
 
   Way way = Way::scatter;
   int width = 0, height = 0;
-  std::vector<RowSpread> spread;  ///< none or one
+  /// Whether masses stand for whole numbers of rows and columns, several, so that `reduced` can be had.
+  bool reduces() const { return way != Way::scatter && (rows_per_mass > 1 || columns[0].columns > 1); }
+
+  bool reduced = false;               ///< make Moments::reduced; only where it reduces()
+  int rows_per_mass = 0;              ///< 0 when it isn't a whole number
+  std::vector<RowSpread> rows;        ///< none or one
+  std::vector<ColumnSpread> columns;  ///< none or one
 };
 
 /// The masses of a map of the plan's shape. Throws Cancelled.

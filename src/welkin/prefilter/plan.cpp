@@ -5,6 +5,7 @@
 
 #include "welkin/map/adjust.h"
 #include "welkin/map/resample.h"
+#include "welkin/prefilter/spline_grid.h"
 #include "welkin/prefilter/tables.h"
 #include "welkin/prefilter/widen.h"
 
@@ -50,11 +51,11 @@ void check_values(const Map& source, const Monitor& monitor) {
 }
 
 /// See PrefilterOptions::mirror_filter.
-Filter mirror_filter(const PrefilterPlan::Tables& t, const Map& level) {
-  if (t.options.mirror_filter != Filter::automatic) return t.options.mirror_filter;
-  const double source = mean_texel(t.source.parameterization, t.source.size);
-  const double texel = mean_texel(level.parameterization, {level.width(), level.height()});
-  return texel < 1.5 * source ? Filter::bicubic : Filter::automatic;
+Filter mirror_filter(const PrefilterOptions& options, const Map& from,
+                     const sphere::AnyParameterization& target, ChartSize size) {
+  if (options.mirror_filter != Filter::automatic) return options.mirror_filter;
+  const double source = mean_texel(from.parameterization, {from.width(), from.height()});
+  return mean_texel(target, size) < 1.5 * source ? Filter::bicubic : Filter::automatic;
 }
 
 }  // namespace
@@ -96,12 +97,21 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
   if (tables->degree > 0) tables->moments.emplace_back(source.parameterization, source.size, tables->degree);
   for (std::size_t i = 0; i < lobes.size(); ++i) {
     if (!lobes[i]) {
-      tables->methods.push_back({"resample", 0, {}, tables->levels[i].lobe, 0});
+      tables->methods.push_back({"resample", 0, {}, tables->levels[i].lobe, 0, false});
+      if (tables->degree > 0 && options.mirror_filter == Filter::automatic) {
+        MomentPlan& moments = tables->moments[0];
+        const double texel = mean_texel(target, tables->levels[i].size);
+        const double reduced = mean_texel(source.parameterization, {moments.width, moments.height});
+        tables->methods.back().reduced =
+            moments.reduces() && moments.rows_per_mass > 0 && reduced < 1.2 * texel;
+        moments.reduced = moments.reduced || tables->methods.back().reduced;
+      }
       continue;
     }
     tables->harmonic.emplace_back(*lobes[i], static_cast<int>(i), tables->moments[0].width);
     const HarmonicLevel& level = tables->harmonic.back();
-    tables->methods.push_back({"harmonics", level.degree, level.grid, lobes[i]->lobe, lobes[i]->sigma});
+    tables->methods.push_back(
+        {"harmonics", level.degree, level.grid, lobes[i]->lobe, lobes[i]->sigma, false});
   }
   if (!tables->harmonic.empty()) {
     for (int m = 0; m <= tables->degree; ++m) tables->recurrences.emplace_back(m, tables->degree);
@@ -134,15 +144,21 @@ std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) c
     map.channel_names = source.channel_names;
     map.orientation = t.options.orientation;
   }
-  check_values(source, monitor);
+  std::optional<Map> reduced;
+  if (t.harmonic.empty()) {
+    check_values(source, monitor);
+  } else {
+    reduced = run_harmonics(t, source, results, monitor);
+  }
+  if (reduced) fill_latlong_border(reduced->level);
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (t.methods[i].name != "resample") continue;
+    const Map& from = reduced && t.methods[i].reduced ? *reduced : source;
     ResampleOptions how;
-    how.filter = mirror_filter(t, results[i]);
+    how.filter = mirror_filter(t.options, from, results[i].parameterization, t.levels[i].size);
     how.monitor.cancelled = monitor.cancelled;
-    resample(source, results[i], how);
+    resample(from, results[i], how);
   }
-  if (!t.harmonic.empty()) run_harmonics(t, source, results, monitor);
   if (t.options.scale == LobeScale::integral) {
     for (std::size_t i = 0; i < results.size(); ++i) {
       if (!t.levels[i].lobe.mirror()) scale(results[i], static_cast<float>(t.levels[i].lobe.integral()));

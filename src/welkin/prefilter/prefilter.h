@@ -43,8 +43,8 @@ struct PrefilterOptions {
   /// Of the results: Map::orientation.
   Matrix3 orientation = {};
   LobeScale scale = LobeScale::average;
-  /// How a mirror's level is read. `automatic`: bicubic where the source is about as fine as the level,
-  /// averaged over the level's texels where it is finer.
+  /// How a mirror's level is read. `automatic`: bicubic where the source is about as fine as the level; where
+  /// it is finer, averaged over the level's texels, or over boxes of its own about as large and then bicubic.
   Filter mirror_filter = Filter::automatic;
 };
 
@@ -58,6 +58,7 @@ struct PrefilterMethod {
   /// this one.
   lobe::AnyLobe lobe;
   double widened = 0;
+  bool reduced = false;  ///< resampled from the source averaged over boxes of its texels
 };
 
 /// Everything that depends on sizes and lobes alone, kept for any number of maps: sequences and probe grids

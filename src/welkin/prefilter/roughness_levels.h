@@ -9,8 +9,9 @@
 namespace welkin {
 
 /// The levels of a chain: `count` of them from `finest` down (chain_size), level k for the lobe at the
-/// curve's roughness there; of a lobe that is defined only above some roughness (charlie), that one where the
-/// curve is below. Throws Error: a lobe without roughness, a list for another number of levels.
+/// curve's roughness there. Where a named curve is below the lobe's least roughness, as `charlie` has one, it
+/// is half of the next level's. Throws Error: a lobe without roughness, a list for another number of levels
+/// or with a roughness below the lobe's least.
 std::vector<PrefilterLevel> roughness_levels(const lobe::AnyLobe& lobe, const lobe::RoughnessCurve& curve,
                                              ChartSize finest, int count);
 

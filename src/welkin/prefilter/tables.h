@@ -46,8 +46,8 @@ struct PrefilterPlan::Tables {
   std::vector<prefilter::Recurrence> recurrences = {};
 };
 
-/// Fills the levels at `results` that harmonics make.
-void run_harmonics(const PrefilterPlan::Tables& tables, const Map& source, std::vector<Map>& results,
-                   const Monitor& monitor);
+/// Fills the levels at `results` that harmonics make. Returns Moments::reduced.
+std::optional<Map> run_harmonics(const PrefilterPlan::Tables& tables, const Map& source,
+                                 std::vector<Map>& results, const Monitor& monitor);
 
 }  // namespace welkin

@@ -26,6 +26,11 @@ double ratio(double part, double whole) {
   return whole > 0 ? part / whole : std::numeric_limits<double>::infinity();
 }
 
+/// Whether a value takes the place of the largest so far: NaN does, and keeps it.
+bool exceeds(double value, double largest) {
+  return !(value <= largest) && !std::isnan(largest);
+}
+
 PrefilterShape shape_of(const Map& map) {
   return {map.parameterization, {map.width(), map.height()}, map.channels()};
 }
@@ -92,9 +97,8 @@ ReferenceErrors errors_of(const Map& level, const Compared& compared, const std:
       error_squares += omega * d.error * d.error;
       squares += omega * d.wanted * d.wanted;
     }
-    // Not std::max, which loses a NaN.
     const double relative = ratio(d.error, std::max(d.wanted, least));
-    if (!(relative <= errors.maximum)) {
+    if (exceeds(relative, errors.maximum)) {
       errors.maximum = relative;
       errors.maximum_direction = compared.directions[i];
     }
@@ -110,7 +114,7 @@ double energy_of(const std::vector<double>& integral, const std::vector<double>&
   for (std::size_t c = 0; c < integral.size(); ++c) {
     const double difference = integral[c] - source[c];
     const double relative = std::copysign(ratio(std::fabs(difference), magnitudes[c]), difference);
-    if (!(std::fabs(relative) <= std::fabs(farthest))) farthest = relative;
+    if (exceeds(std::fabs(relative), std::fabs(farthest))) farthest = relative;
   }
   return 1 + farthest;
 }
@@ -137,7 +141,7 @@ double furnace_of_whole_world(const Map& level, double one) {
       for (int x = 0; x < level.width(); ++x) {
         if (!(omega[static_cast<std::size_t>(x)] > 0)) continue;
         const double off = std::fabs(static_cast<double>(value[x]) / one - 1);
-        if (!(off <= largest)) largest = off;
+        if (exceeds(off, largest)) largest = off;
       }
     }
   }
@@ -151,7 +155,7 @@ double furnace_of_part(const Map& level, const Compared& compared, const std::ve
     const Texel& t = compared.texels[i];
     const double value = static_cast<double>(*level.level.chart(t.chart).at(t.x, t.y));
     const double off = std::fabs(value - wanted[i]) / one;
-    if (!(off <= largest)) largest = off;
+    if (exceeds(off, largest)) largest = off;
   }
   return largest;
 }

@@ -8,7 +8,29 @@
 namespace welkin::prefilter {
 namespace {
 
-constexpr int kLeastRows = 192, kMostRows = 512;
+constexpr int kLeastRows = 256, kMostRows = 512;
+
+/// Gauss's two points in 0 … 1.
+const double kGauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+
+/// Solid angles of a row's texels, by four points each, as the reference has them.
+void row_solid_angles(const Map& map, int chart, int y, std::vector<double>& omega) {
+  const sphere::AnyParameterization& p = map.parameterization;
+  const double area = 0.25 / (static_cast<double>(map.width()) * map.height());
+  const bool full = p.full_charts(), by_row = full && p.density_by_row();
+  for (int x = 0; x < map.width(); ++x) {
+    double& sum = omega[static_cast<std::size_t>(x)];
+    if (by_row && x > 0) {
+      sum = omega[0];
+      continue;
+    }
+    sum = 0;
+    for (int k = 0; k < 4; ++k) {
+      const double u = (x + kGauss[k % 2]) / map.width(), v = (y + kGauss[k / 2]) / map.height();
+      if (full || p.valid(chart, u, v)) sum += p.solid_angle_density(chart, u, v) * area;
+    }
+  }
+}
 
 /// Sums value(texel's value)·Ω of each channel, in an order that depends on the size alone.
 template <class Value>
@@ -18,16 +40,16 @@ std::vector<double> sum_texels(const Map& map, const Value& value) {
   std::vector<std::vector<double>> sums(static_cast<std::size_t>(bands.count), std::vector<double>(channels));
   parallel_for(bands.count, [&](int band) {
     std::vector<double>& sum = sums[static_cast<std::size_t>(band)];
-    std::vector<float> omega(static_cast<std::size_t>(map.width()));
+    std::vector<double> omega(static_cast<std::size_t>(map.width()));
     for (int row = bands.first(band); row < bands.first(band + 1); ++row) {
       const int chart = row / map.height(), y = row % map.height();
-      texel_solid_angles(map.parameterization, map.width(), map.height(), chart, y, omega.data());
+      row_solid_angles(map, chart, y, omega);
       const float* texel = map.level.chart(chart).row(y);
-      for (const float each : omega) {
+      for (const double each : omega) {
         // What isn't a place of the map may hold anything.
         if (each > 0) {
           for (std::size_t c = 0; c < channels; ++c) {
-            sum[c] += value(static_cast<double>(texel[c])) * static_cast<double>(each);
+            sum[c] += value(static_cast<double>(texel[c])) * each;
           }
         }
         texel += channels;
@@ -41,17 +63,13 @@ std::vector<double> sum_texels(const Map& map, const Value& value) {
   return total;
 }
 
-/// ∫ of a lat-long map by Fejér's first rule over its rows.
-std::vector<double> fejer_integral(const Map& map) {
-  const int rows = map.height();
+/// ∫ of a lat-long map with a row for each of Fejér's points.
+std::vector<double> grid_integral(const Map& map) {
+  const std::vector<double> weights = fejer_weights(map.height());
   const auto channels = static_cast<std::size_t>(map.channels());
   std::vector<double> total(channels);
-  for (int j = 0; j < rows; ++j) {
-    double weight = 1;
-    for (int k = 1; k <= rows / 2; ++k) {
-      weight -= 2 * std::cos(2 * k * (j + 0.5) * kPi / rows) / (4.0 * k * k - 1);
-    }
-    weight *= 2.0 / rows * 2 * kPi / map.width();
+  for (int j = 0; j < map.height(); ++j) {
+    const double weight = weights[static_cast<std::size_t>(j)] * 2 * kPi / map.width();
     const float* texel = map.level.chart(0).row(j);
     for (int x = 0; x < map.width(); ++x) {
       for (std::size_t c = 0; c < channels; ++c) total[c] += weight * static_cast<double>(*texel++);
@@ -61,6 +79,28 @@ std::vector<double> fejer_integral(const Map& map) {
 }
 
 }  // namespace
+
+std::optional<int> energy_rows(const lobe::AnyLobe& lobe) {
+  const double rows = 2 * std::ceil(8 / lobe.width());
+  if (lobe.mirror() || rows > kMostRows) return std::nullopt;
+  return std::max(static_cast<int>(rows), kLeastRows);
+}
+
+std::vector<double> fejer_weights(int rows) {
+  std::vector<double> weights;
+  for (int j = 0; j < rows; ++j) {
+    double weight = 1;
+    for (int k = 1; k <= rows / 2; ++k) {
+      weight -= 2 * std::cos(2 * k * (j + 0.5) * kPi / rows) / (4.0 * k * k - 1);
+    }
+    weights.push_back(2 * weight / rows);
+  }
+  return weights;
+}
+
+Matrix3 energy_grid_orientation() {
+  return rotation_from_yaw_pitch_roll(17, 29, 41);
+}
 
 std::vector<double> integral_of_texels(const Map& map) {
   return sum_texels(map, [](double value) { return value; });
@@ -79,21 +119,19 @@ std::vector<std::optional<std::vector<double>>> integrals_of_levels(const Map& s
   prefilter.scale = LobeScale::average;
 
   // Lobes for a lat-long grid: all at once.
-  prefilter.orientation = {};
+  prefilter.orientation = energy_grid_orientation();
   std::vector<PrefilterLevel> levels;
   std::vector<std::size_t> which;
   for (std::size_t i = 0; i < lobes.size(); ++i) {
-    if (lobes[i].mirror()) continue;
-    const double rows = std::ceil(16 / lobes[i].width() / 2) * 2;
-    if (rows > kMostRows) continue;
-    const int height = std::max(static_cast<int>(rows), kLeastRows);
-    levels.push_back({{2 * height, height}, lobes[i]});
+    const std::optional<int> rows = energy_rows(lobes[i]);
+    if (!rows) continue;
+    levels.push_back({{2 * *rows, *rows}, lobes[i]});
     which.push_back(i);
   }
   if (!levels.empty()) {
     const PrefilterPlan plan(shape, sphere::AnyParameterization::make("latlong"), levels, prefilter);
     const std::vector<Map> maps = plan.run(source, {nullptr, options.monitor.cancelled});
-    for (std::size_t k = 0; k < maps.size(); ++k) integrals[which[k]] = fejer_integral(maps[k]);
+    for (std::size_t k = 0; k < maps.size(); ++k) integrals[which[k]] = grid_integral(maps[k]);
   }
 
   // Narrower ones at the source's texels.

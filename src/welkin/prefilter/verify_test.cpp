@@ -1,0 +1,420 @@
+#include "welkin/prefilter/verify.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "welkin/base/error.h"
+#include "welkin/lobe/lobe_cases.h"
+#include "welkin/map/borders.h"
+#include "welkin/map/render_synth.h"
+#include "welkin/prefilter/reference.h"
+#include "welkin/prefilter/roughness_levels.h"
+#include "welkin/prefilter/source_faults.h"
+#include "welkin/prefilter/verify_energy.h"
+#include "welkin/prefilter/verify_texels.h"
+
+namespace welkin {
+namespace {
+
+using lobe::AnyLobe;
+using sphere::AnyParameterization;
+
+Map sun(const std::string& parameterization, int width, int height, const Matrix3& orientation = {}) {
+  synth::SynthOptions options;
+  options.angle = 10;
+  options.intensity = 100;
+  return render(synth::make("sun", options), AnyParameterization::make(parameterization), width, height,
+                {4, orientation, {}});
+}
+
+/// A level by the reference itself.
+Map exact_level(const Map& source, const AnyLobe& lobe, const std::string& parameterization, int width,
+                const Matrix3& orientation = {}) {
+  const AnyParameterization target = AnyParameterization::make(parameterization);
+  Map level(target, width, static_cast<int>(width / target.aspect()), source.channels());
+  level.orientation = orientation;
+  const std::vector<prefilter::Texel> texels = prefilter::random_texels(level, 1 << 20, 1);
+  std::vector<Vec3d> directions;
+  for (const prefilter::Texel& t : texels) directions.push_back(prefilter::direction_of(level, t));
+  const auto channels = static_cast<std::size_t>(source.channels());
+  std::vector<double> values(texels.size() * channels);
+  PrefilterReference(source).evaluate(lobe, directions, values);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    float* texel = level.level.chart(texels[i].chart).at(texels[i].x, texels[i].y);
+    for (std::size_t c = 0; c < channels; ++c) texel[c] = static_cast<float>(values[i * channels + c]);
+  }
+  return level;
+}
+
+void multiply(Map& map, const prefilter::Texel& t, float factor) {
+  for (int c = 0; c < map.channels(); ++c) map.level.chart(t.chart).at(t.x, t.y)[c] *= factor;
+}
+
+ReferenceErrors errors_of(const Map& source, const Map& level, const AnyLobe& lobe,
+                          const VerifyOptions& options = {}) {
+  return *verify_prefilter(source, {&level, 1}, {&lobe, 1}, options).front().reference;
+}
+
+const AnyLobe kLobe = AnyLobe::make("ggx,roughness=0.4");
+
+// ---------------------------------------------------------------------------------------- against the
+// reference
+
+/// The level holds floats: 6e-8.
+TEST(Verify, TheReferenceItselfHasNoError) {
+  const Matrix3 turned = rotation_from_yaw_pitch_roll(40, 10, -70);
+  const Matrix3 mirrored = Matrix3{{{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}} * turned;
+  for (const Map& source : {sun("latlong", 64, 32, turned), sun("cube", 16, 16, mirrored)}) {
+    for (const Matrix3& orientation : {Matrix3{}, turned, mirrored}) {
+      VerifyOptions options;
+      options.prefilter.orientation = orientation;
+      const Map level = exact_level(source, kLobe, "cube", 8, orientation);
+      const ReferenceErrors errors = errors_of(source, level, kLobe, options);
+      EXPECT_EQ(errors.random_texels, 64);
+      EXPECT_GE(errors.hot_texels, 1);
+      EXPECT_LT(errors.relative_rmse, 1e-7);
+      EXPECT_LT(errors.maximum, 1e-7);
+    }
+  }
+}
+
+TEST(Verify, AFactorIsFoundAsItsExcess) {
+  const Map source = sun("latlong", 64, 32);
+  Map level = exact_level(source, kLobe, "cube", 8);
+  for (const prefilter::Texel& t : prefilter::random_texels(level, 1000, 1)) multiply(level, t, 1.03125f);
+  const ReferenceErrors errors = errors_of(source, level, kLobe);
+  EXPECT_NEAR(errors.relative_rmse, 0.03125, 1e-6);
+  EXPECT_NEAR(errors.maximum, 0.03125, 1e-6);
+}
+
+/// One wrong texel out of 6·16² where it matters, too bright or too dark: chance would miss it.
+TEST(Verify, AWrongTexelInTheLightIsFound) {
+  const Map source = sun("latlong", 64, 32);
+  Map level = exact_level(source, kLobe, "cube", 16);
+  const Vec3d light = prefilter::brightest_lights(source, 1).front();
+  VerifyOptions options;
+  options.random_texels = 4;
+  options.most_hot = 1;
+  const std::vector<prefilter::Texel> random = prefilter::random_texels(level, 4, options.seed);
+  std::vector<prefilter::Texel> wrong;
+  for (const prefilter::Texel& t : prefilter::random_texels(level, 10000, 1)) {
+    if (dot(prefilter::direction_of(level, t), light) > std::cos(0.04)) wrong.push_back(t);
+  }
+  ASSERT_EQ(wrong.size(), 1u);
+  ASSERT_EQ(std::count(random.begin(), random.end(), wrong.front()), 0);
+  float* const texel = level.level.chart(wrong.front().chart).at(wrong.front().x, wrong.front().y);
+  const float right[3] = {texel[0], texel[1], texel[2]};
+  for (const float factor : {1.5f, 0.5f, 0.0f}) {
+    std::copy_n(right, 3, texel);
+    multiply(level, wrong.front(), factor);
+    const ReferenceErrors errors = errors_of(source, level, kLobe, options);
+    EXPECT_NEAR(errors.maximum, std::fabs(factor - 1), 1e-6);
+    EXPECT_LT(errors.relative_rmse, 1e-7);
+    EXPECT_NEAR(dot(errors.maximum_direction, prefilter::direction_of(level, wrong.front())), 1, 1e-12);
+  }
+}
+
+TEST(Verify, ANumberThatIsNoneIsNoSmallError) {
+  const Map source = sun("latlong", 32, 16);
+  Map level = exact_level(source, kLobe, "cube", 1);
+  level.level.chart(3).at(0, 0)[1] = std::numeric_limits<float>::quiet_NaN();
+  const ReferenceErrors errors = errors_of(source, level, kLobe);
+  EXPECT_FALSE(errors.relative_rmse < 1);
+  EXPECT_FALSE(errors.maximum < 1);
+}
+
+TEST(Verify, BlackMapsAreExactAndKeepTheirEnergy) {
+  Map source(AnyParameterization::make("latlong"), 32, 16, 3);
+  fill_borders(source);
+  Map level(AnyParameterization::make("cube"), 4, 4, 3);
+  LevelVerification v = verify_prefilter(source, {&level, 1}, {&kLobe, 1}).front();
+  EXPECT_EQ(v.reference->relative_rmse, 0);
+  EXPECT_EQ(v.reference->maximum, 0);
+  EXPECT_EQ(v.energy, 1.0);
+  level.level.chart(0).at(0, 0)[0] = 1e-20f;
+  v = verify_prefilter(source, {&level, 1}, {&kLobe, 1}).front();
+  EXPECT_TRUE(std::isinf(v.reference->maximum));
+}
+
+/// Alpha is 1 everywhere, and would hide what is wrong with dim radiance.
+TEST(Verify, AlphaIsNotCountedAmongColours) {
+  Map source(AnyParameterization::make("latlong"), 32, 16, 4);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      float* texel = source.level.chart(0).at(x, y);
+      texel[0] = texel[1] = texel[2] = 1e-3f;
+      texel[3] = 1;
+    }
+  }
+  fill_borders(source);
+  Map level = exact_level(source, kLobe, "cube", 2);
+  for (int chart = 0; chart < 6; ++chart) {
+    for (int i = 0; i < 4; ++i) level.level.chart(chart).at(i % 2, i / 2)[0] = 0;
+  }
+  EXPECT_NEAR(errors_of(source, level, kLobe).relative_rmse, std::sqrt(1.0 / 3), 1e-6);
+}
+
+TEST(Verify, IntegralsAreComparedWithIntegrals) {
+  const Map source = sun("latlong", 64, 32);
+  const AnyLobe lambert = AnyLobe::make("lambert");
+  Map level = exact_level(source, lambert, "cube", 4);
+  for (const prefilter::Texel& t : prefilter::random_texels(level, 1000, 1))
+    multiply(level, t, static_cast<float>(kPi));
+  VerifyOptions options;
+  options.prefilter.scale = LobeScale::integral;
+  EXPECT_LT(errors_of(source, level, lambert, options).maximum, 2e-7);
+}
+
+TEST(Verify, MirrorsAreNotComparedButKeepTheirEnergy) {
+  const Map source = sun("latlong", 64, 32);
+  const AnyLobe mirror = AnyLobe::make("ggx,roughness=0");
+  const std::vector<Map> levels = prefilter_map(source, source.parameterization, {{{64, 32}, mirror}});
+  const LevelVerification v = verify_prefilter(source, levels, {&mirror, 1}).front();
+  EXPECT_FALSE(v.reference.has_value());
+  // Solid angles by four points and exactly: 1e-5.
+  EXPECT_NEAR(*v.energy, 1, 1e-5);
+  EXPECT_LT(*v.furnace, 1e-6);
+}
+
+TEST(Verify, NumbersDependOnTheSeedAloneNotOnThreads) {
+  const Map source = sun("cube", 16, 16);
+  const std::vector<Map> levels =
+      prefilter_map(source, AnyParameterization::make("octahedral"), {{{32, 32}, kLobe}});
+  const LevelVerification many = verify_prefilter(source, levels, {&kLobe, 1}).front();
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const LevelVerification single = verify_prefilter(source, levels, {&kLobe, 1}).front();
+  EXPECT_EQ(many.reference->relative_rmse, single.reference->relative_rmse);
+  EXPECT_EQ(many.reference->maximum, single.reference->maximum);
+  EXPECT_EQ(many.energy, single.energy);
+  EXPECT_EQ(many.furnace, single.furnace);
+}
+
+TEST(Verify, HugeSourcesAreRefusedBeforeMemoryIsTaken) {
+  EXPECT_THROW(check_verifiable({AnyParameterization::make("latlong"), {16384, 8192}, 3}), Error);
+  EXPECT_NO_THROW(check_verifiable({AnyParameterization::make("latlong"), {8192, 4096}, 3}));
+}
+
+TEST(Verify, IsCancelled) {
+  const Map source = sun("latlong", 64, 32);
+  const Map level = exact_level(source, kLobe, "cube", 2);
+  VerifyOptions options;
+  options.monitor.cancelled = [] { return true; };
+  EXPECT_THROW(errors_of(source, level, kLobe, options), Cancelled);
+}
+
+TEST(Verify, ProgressRisesToOne) {
+  const Map source = sun("fisheye-equidistant", 32, 32);
+  const std::vector<AnyLobe> lobes{kLobe, AnyLobe::make("lambert")};
+  const std::vector<Map> levels =
+      prefilter_map(source, AnyParameterization::make("cube"), {{{4, 4}, lobes[0]}, {{2, 2}, lobes[1]}});
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  double last = 0;
+  VerifyOptions options;
+  options.monitor.progress = [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  };
+  verify_prefilter(source, levels, lobes, options);
+  EXPECT_NEAR(last, 1, 1e-12);
+}
+
+// -------------------------------------------------------------------------------------------------- which
+// texels
+
+TEST(VerifyTexels, ChancePicksPlacesOnceAndAllOfFew) {
+  for (const char* name : {"cube", "latlong", "angular", "healpix"}) {
+    for (const int size : {1, 2, 5, 40}) {
+      const Map level(AnyParameterization::make(name), size, size, 1);
+      int places = 0;
+      for (const prefilter::Texel& t : prefilter::random_texels(level, 1 << 20, 1)) {
+        places += level.parameterization.valid(t.chart, (t.x + 0.5) / size, (t.y + 0.5) / size) ? 1 : 0;
+      }
+      for (const int count : {1, 64, 1000}) {
+        const auto texels = prefilter::random_texels(level, count, 7);
+        const std::set<prefilter::Texel> set(texels.begin(), texels.end());
+        EXPECT_EQ(set.size(), texels.size()) << name << size;
+        EXPECT_EQ(static_cast<int>(texels.size()), std::min(count, places)) << name << size;
+        EXPECT_EQ(texels, prefilter::random_texels(level, count, 7));
+      }
+    }
+  }
+  const Map level(AnyParameterization::make("cube"), 64, 64, 1);
+  EXPECT_NE(prefilter::random_texels(level, 64, 1), prefilter::random_texels(level, 64, 2));
+}
+
+TEST(VerifyTexels, TheHotAreAllAboveTheirShareAndSpread) {
+  Map level(AnyParameterization::make("cube"), 32, 32, 1);
+  for (int i = 0; i < 1024; ++i) level.level.chart(2).at(i % 32, i / 32)[0] = static_cast<float>(i + 1);
+  VerifyOptions options;
+  options.most_hot = 16;
+  const auto texels = prefilter::hot_texels(level, {}, options);
+  ASSERT_EQ(texels.size(), 16u);
+  float least = 1e9f, most = 0;
+  for (const prefilter::Texel& t : texels) {
+    const float value = *level.level.chart(t.chart).at(t.x, t.y);
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  EXPECT_EQ(most, 1024);
+  EXPECT_GE(least, 512);
+  EXPECT_LT(least, 560);
+  options.most_hot = 10000;
+  EXPECT_EQ(prefilter::hot_texels(level, {}, options).size(), 513u);
+  // A light besides.
+  EXPECT_EQ(prefilter::hot_texels(level, {{0, -1, 0}}, options).size(), 514u);
+}
+
+TEST(VerifyTexels, LightsAreTheBrightestAndApart) {
+  Map source(AnyParameterization::make("cube"), 64, 64, 3);
+  source.orientation = rotation_from_yaw_pitch_roll(30, 60, 90);
+  const auto light = [&](const prefilter::Texel& t, float radiance) {
+    for (int c = 0; c < 3; ++c) source.level.chart(t.chart).at(t.x, t.y)[c] = radiance;
+  };
+  const std::vector<prefilter::Texel> lamps{{4, 31, 20}, {1, 0, 0}, {2, 40, 63}};
+  light(lamps[0], 1000);
+  light({4, 32, 20}, 999);  // beside it, in another block
+  light(lamps[1], 300);
+  light(lamps[2], 50);
+  const std::vector<Vec3d> lights = prefilter::brightest_lights(source, 16);
+  ASSERT_EQ(lights.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(dot(lights[i], prefilter::direction_of(source, lamps[i])), 1, 1e-12) << i;
+  }
+  EXPECT_EQ(prefilter::brightest_lights(source, 2).size(), 2u);
+}
+
+// -------------------------------------------------------------------------------------------- energy and
+// furnace
+
+/// Waldvogel 2006: exact below the number of points.
+TEST(VerifyEnergy, FejersRuleIsExactForPolynomials) {
+  for (const int rows : {1, 2, 7, 192}) {
+    const std::vector<double> weights = prefilter::fejer_weights(rows);
+    for (int degree = 0; degree < std::min(rows, 40); ++degree) {
+      double sum = 0;
+      for (int j = 0; j < rows; ++j) {
+        sum += weights[static_cast<std::size_t>(j)] * std::pow(std::cos((j + 0.5) * kPi / rows), degree);
+      }
+      EXPECT_NEAR(sum, degree % 2 == 0 ? 2.0 / (degree + 1) : 0, 1e-14) << rows << ' ' << degree;
+    }
+  }
+}
+
+/// The grid integrates the lobe about any axis of the world, and so any sum of them. verify_energy.h promises
+/// 2e-5.
+TEST(VerifyEnergy, TheGridResolvesEveryLobeItTakes) {
+  const std::vector<Vec3d> axes{{0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0.3, 0.8, -0.5}, {0.001, -1, 0}};
+  const Matrix3 orientation = prefilter::energy_grid_orientation();
+  int taken = 0;
+  for (const AnyLobe& lobe : lobe::cases::all_lobes()) {
+    const std::optional<int> rows = prefilter::energy_rows(lobe);
+    if (!rows) continue;
+    ++taken;
+    const std::vector<double> weights = prefilter::fejer_weights(*rows);
+    for (const Vec3d& each : axes) {
+      const Vec3d axis = orientation * normalize(each);
+      double sum = 0;
+      for (int j = 0; j < *rows; ++j) {
+        const double theta = (j + 0.5) * kPi / *rows;
+        for (int i = 0; i < 2 * *rows; ++i) {
+          const double phi = (i + 0.5) * kPi / *rows;
+          const Vec3d d =
+              Vec3d{std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)} - axis;
+          sum += weights[static_cast<std::size_t>(j)] * kPi / *rows * lobe.weight(dot(d, d) / 2);
+        }
+      }
+      EXPECT_NEAR(sum / lobe.integral(), 1, 2e-5) << lobe.spec() << ' ' << each.x;
+    }
+  }
+  EXPECT_GT(taken, 10);
+}
+
+/// Narrow lobes at the source's own texels, by the reference: texels of 7°, for which verify_energy.h
+/// promises 5e-4.
+TEST(VerifyEnergy, TheSourcesTexelsAddUpForNarrowLobes) {
+  for (const char* spec : {"ggx,roughness=0.0625", "ggx,roughness=0.125"}) {
+    const AnyLobe lobe = AnyLobe::make(spec);
+    for (const Map& source : {sun("latlong", 50, 25), sun("cube", 13, 13), sun("octahedral", 32, 32)}) {
+      const Map level = exact_level(source, lobe, source.parameterization.name(), source.width());
+      EXPECT_NEAR(prefilter::integral_of_texels(level)[0] / PrefilterReference(source).integral()[0], 1, 5e-4)
+          << spec << ' ' << source.parameterization.name();
+    }
+  }
+}
+
+/// The plan's own bounds for tiny maps: energy 1e-4, furnace 2e-5. At the rim of a disc, plan and reference
+/// tell by different points how much of a texel is shown.
+TEST(VerifyEnergy, PlansKeepEnergyAndConstants) {
+  for (const Map& source : {sun("latlong", 64, 32), sun("latlong", 37, 19), sun("cube", 33, 33),
+                            sun("fisheye-equidistant", 48, 48)}) {
+    const std::vector<AnyLobe> lobes{AnyLobe::make("ggx,roughness=0.25"), AnyLobe::make("lambert"),
+                                     AnyLobe::make("phong,exponent=20")};
+    const std::vector<Map> levels =
+        prefilter_map(source, AnyParameterization::make("cube"),
+                      {{{9, 9}, lobes[0]}, {{1, 1}, lobes[1]}, {{4, 4}, lobes[2]}});
+    const auto results = verify_prefilter(source, levels, lobes);
+    for (const LevelVerification& v : results) {
+      const bool whole = source.parameterization.whole_world();
+      EXPECT_NEAR(*v.energy, 1, whole ? 1e-4 : 1e-3) << source.parameterization.name();
+      EXPECT_LT(*v.furnace, whole ? 2e-5 : 1e-3) << source.parameterization.name();
+      EXPECT_LT(v.reference->relative_rmse, 1e-3) << source.parameterization.name();
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------------------ levels and
+// sources
+
+TEST(RoughnessLevels, AreTheCurvesAndTheChains) {
+  const lobe::RoughnessCurve linear = lobe::RoughnessCurve::from_name("linear");
+  const auto levels = roughness_levels(AnyLobe::make("ggx"), linear, {9, 5}, 3);
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_TRUE(levels[0].lobe.mirror());
+  EXPECT_EQ(roughness_of(levels[1].lobe), 0.5);
+  EXPECT_EQ(roughness_of(levels[2].lobe), 1);
+  EXPECT_EQ(levels[1].size.width, 4);
+  EXPECT_EQ(levels[2].size.height, 1);
+  // Phong's roughness is 1/exponent.
+  EXPECT_EQ(roughness_of(roughness_levels(AnyLobe::make("phong"), linear, {4, 4}, 3)[1].lobe), 0.5);
+  EXPECT_FALSE(roughness_of(AnyLobe::make("lambert")).has_value());
+}
+
+TEST(RoughnessLevels, WithoutAMirrorBeginAtHalfOfTheNextLevel) {
+  const AnyLobe charlie = AnyLobe::make("charlie");
+  const auto named = [&](const char* curve, int count) {
+    return roughness_levels(charlie, lobe::RoughnessCurve::from_name(curve), {256, 256}, count);
+  };
+  EXPECT_EQ(roughness_of(named("linear", 9)[0].lobe), 0.0625);
+  EXPECT_EQ(roughness_of(named("linear", 9)[1].lobe), 0.125);
+  EXPECT_EQ(roughness_of(named("linear", 1)[0].lobe), 0.5);
+  EXPECT_GE(*roughness_of(named("unreal", 9)[0].lobe), 0.01);
+  EXPECT_THROW(named("0,0.5", 2), Error);
+  EXPECT_THROW(named("0.1,0.5", 3), Error);
+  EXPECT_THROW(roughness_levels(AnyLobe::make("vmf"), lobe::RoughnessCurve::from_name("linear"), {4, 4}, 2),
+               Error);
+}
+
+TEST(SourceFaults, AreCountedByTexelAndOnlyWhereTheMapIs) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                  kInfinity = std::numeric_limits<float>::infinity();
+  Map map(AnyParameterization::make("angular"), 40, 40, 3);
+  const ImageView<float> chart = map.level.chart(0);
+  chart.at(0, 0)[0] = kNan;  // a corner of the disc's square
+  chart.at(20, 20)[0] = chart.at(20, 20)[1] = kNan;
+  chart.at(21, 20)[2] = -kInfinity;
+  chart.at(22, 20)[2] = -2e30f;
+  chart.at(23, 20)[1] = 1e30f;
+  chart.at(24, 20)[1] = -1e-30f;
+  chart.at(25, 21)[0] = -0.0f;
+  const SourceFaults faults = faults_of(map);
+  EXPECT_EQ(faults.not_finite, 2u);
+  EXPECT_EQ(faults.excessive, 1u);
+  EXPECT_EQ(faults.negative, 1u);
+}
+
+}  // namespace
+}  // namespace welkin
