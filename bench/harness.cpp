@@ -41,11 +41,18 @@ std::string time_cell(const Timing& timing, double Seconds::*member) {
   return fixed(median, digits) + " (" + fixed(best, digits) + ")";
 }
 
+std::string milliseconds_cell(const Timing& timing, double Seconds::*member) {
+  const double median = 1e3 * timing.median().*member, best = 1e3 * timing.best().*member;
+  const int digits = median < 10 ? 2 : median < 1000 ? 1 : 0;
+  return fixed(median, digits) + " (" + fixed(best, digits) + ")";
+}
+
 }  // namespace
 
-Threads::Threads()
-    : count_(thread_count()),
-      limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count_)) {}
+Threads::Threads() : Threads(thread_count()) {}
+
+Threads::Threads(int count)
+    : count_(count), limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count_)) {}
 
 Seconds Timing::median() const {
   return {median_of(column(runs, &Seconds::cpu)), median_of(column(runs, &Seconds::wall))};
@@ -74,6 +81,14 @@ double ratio(const Timing& a, const Timing& b) {
     ratios.push_back(a.runs[i].cpu / b.runs[i].cpu);
   }
   return median_of(ratios);
+}
+
+double difference(const Timing& a, const Timing& b) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < std::min(a.runs.size(), b.runs.size()); ++i) {
+    differences.push_back(a.runs[i].cpu - b.runs[i].cpu);
+  }
+  return median_of(differences);
 }
 
 double median_of(std::vector<double> values) {
@@ -106,6 +121,13 @@ std::string cpu_cell(const Timing& timing) {
 }
 std::string wall_cell(const Timing& timing) {
   return time_cell(timing, &Seconds::wall);
+}
+
+std::string cpu_milliseconds(const Timing& timing) {
+  return milliseconds_cell(timing, &Seconds::cpu);
+}
+std::string wall_milliseconds(const Timing& timing) {
+  return milliseconds_cell(timing, &Seconds::wall);
 }
 
 std::string met(bool is_met) {

@@ -13,6 +13,8 @@ namespace welkin::bench {
 class Threads {
  public:
   Threads();
+  /// To so many, and no more than one that lives longer allows.
+  explicit Threads(int count);
   int count() const { return count_; }
 
  private:
@@ -41,6 +43,9 @@ std::vector<Timing> time_jobs(const std::vector<std::function<void()>>& jobs, in
 /// The median over rounds of a's processor time divided by b's in the same round.
 double ratio(const Timing& a, const Timing& b);
 
+/// The median over rounds of a's processor seconds less b's in the same round.
+double difference(const Timing& a, const Timing& b);
+
 double median_of(std::vector<double> values);
 
 /// A Markdown table, printed row by row, so that a long benchmark shows where it is.
@@ -58,6 +63,9 @@ std::string fixed(double value, int digits);
 /// `0.071 (0.069)`: the median and the best of processor seconds.
 std::string cpu_cell(const Timing& timing);
 std::string wall_cell(const Timing& timing);
+/// `31.2 (30.8)`: the same in milliseconds.
+std::string cpu_milliseconds(const Timing& timing);
+std::string wall_milliseconds(const Timing& timing);
 /// `yes`, or `**no**`.
 std::string met(bool is_met);
 

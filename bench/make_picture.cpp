@@ -1,14 +1,17 @@
 // Writes the picture that other programs are compared on.
 //
 // make_picture OUT WIDTH     OUT.tif: clipped to 0…¾, 16 bits, linear, uncompressed. OUT.exr: half, ZIP.
+//                            OUT.pfm: as it is where the width is the map's own. None has negative values.
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 
+#include "lighting.h"
 #include "pictures.h"
 #include "welkin/base/error.h"
 #include "welkin/io/image_file.h"
@@ -17,11 +20,13 @@ int main(int argc, char** argv) try {
   using namespace welkin;
   if (argc != 3) throw Error("make_picture OUT WIDTH");
   const std::filesystem::path path = argv[1];
-  Map map = bench::detailed_picture(std::stoi(argv[2]));
-  const bool is_tiff = path.extension() == ".tif";
-  for (int y = 0; is_tiff && y < map.height(); ++y) {
+  const int width = std::stoi(argv[2]);
+  const bool is_tiff = path.extension() == ".tif", is_exr = path.extension() == ".exr";
+  Map map = is_tiff || is_exr ? bench::detailed_picture(width) : bench::lighting_picture(width);
+  const float highest = is_tiff ? 0.75f : std::numeric_limits<float>::max();
+  for (int y = 0; y < map.height(); ++y) {
     float* row = map.level.chart(0).row(y);
-    for (int i = 0; i < 3 * map.width(); ++i) row[i] = std::clamp(row[i], 0.0f, 0.75f);
+    for (int i = 0; i < 3 * map.width(); ++i) row[i] = std::clamp(row[i], 0.0f, highest);
   }
   const io::WritePart part{"", map.level.chart(0), {"R", "G", "B"}};
   io::WriteOptions options;
@@ -29,7 +34,7 @@ int main(int argc, char** argv) try {
     options.type = io::PixelType::uint16;
     options.colour = io::Colour::linear;
     options.compression = "none";
-  } else {
+  } else if (is_exr) {
     options.type = io::PixelType::half;
     options.compression = "zip";
   }

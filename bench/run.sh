@@ -2,15 +2,19 @@
 # Runs the benchmarks and prints their tables as Markdown; all of them together become docs/benchmarks.md.
 #
 # run.sh BUILD_FOLDER [WHAT…]
-#   WHAT               resample_speed filter_quality round_trip every_parameterization read_speed commands peers;
+#   WHAT               resample_speed filter_quality round_trip every_parameterization read_speed commands peers
+#                      prefilter_speed prefilter_quality prefilter_narrow bake bake_peers;
 #                      some of these are only printed
 #
 #   WELKIN_BENCH_THREADS=N   threads (2)
-#   WELKIN_BENCH_HDRI=FILE   a lat-long to measure round trips and files on, instead of a built-in one
-#   WELKIN_BENCH_CMFT=FILE   the program cmft, for the comparison with other programs
+#   WELKIN_BENCH_HDRI=FILE   a lat-long to measure round trips, files and pre-filtering on, instead of a built-in one
+#   WELKIN_BENCH_CMFT=FILE   programs for the comparison with others: cmft,
+#   WELKIN_BENCH_CMGEN=FILE  Filament's cmgen,
+#   WELKIN_BENCH_IBL_SAMPLER=FILE   the command of Khronos' glTF-IBL-Sampler
 set -euo pipefail
 
-everything=(resample_speed filter_quality round_trip every_parameterization read_speed commands peers)
+everything=(resample_speed filter_quality round_trip every_parameterization read_speed commands peers
+  prefilter_speed prefilter_quality prefilter_narrow bake bake_peers)
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 build=$(cd -- "${1:?run.sh BUILD_FOLDER [WHAT…]}" && pwd)
 shift
@@ -42,7 +46,7 @@ machine() {
 
 run_one() {
   case $1 in
-    commands | peers) bash "$here/$1.sh" "$build" "$work" ;;
+    commands | peers | bake | bake_peers) bash "$here/$1.sh" "$build" "$work" ;;
     read_speed) "$build/bench/read_speed" "$work" ;;
     *) "$build/bench/$1" ;;
   esac

@@ -6,20 +6,20 @@
 
 #include "bake_levels.h"
 #include "bake_report.h"
+#include "bake_source.h"
 #include "command.h"
 #include "progress.h"
 #include "welkin/base/number_text.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/convention.h"
-#include "welkin/prefilter/source_faults.h"
 
 namespace welkin::cli {
 namespace {
 
 struct Bake {
-  std::string in, out, tolerance = "0.1%", normalisation = "average", filter = "auto", format, rotation,
-                       convention, verify;
+  std::string in, out, tolerance = "0.1%", normalisation = "average", filter = "auto", format;
+  std::string rotation, convention, verify;
   BakeLevels made;
   ReadFlags read;
   WriteFlags write;
@@ -29,8 +29,6 @@ struct Bake {
   void run();
   PrefilterOptions parse_options() const;
   WriteMapOptions parse_write();
-  Map read_source() const;
-  void check_source(Map& source) const;
 };
 
 /// Seconds since the last call, or since it was made.
@@ -81,54 +79,6 @@ WriteMapOptions Bake::parse_write() {
   return write.parse();
 }
 
-Map without_alpha(Map map) {
-  const std::vector<std::string> rgba{"R", "G", "B", "A"};
-  if (map.channel_names != rgba) return map;
-  Map rgb(map.parameterization, map.width(), map.height(), 3);
-  rgb.orientation = map.orientation;
-  for (int chart = 0; chart < map.charts(); ++chart) {
-    for (int y = 0; y < map.height(); ++y) {
-      const float* from = map.level.chart(chart).row(y);
-      float* to = rgb.level.chart(chart).row(y);
-      for (int x = 0; x < map.width(); ++x) std::copy_n(from + 4 * x, 3, to + 3 * x);
-    }
-  }
-  fill_borders(rgb);
-  return rgb;
-}
-
-Map Bake::read_source() const {
-  MapReader reader = read.open(in);
-  Map source = reader.read();
-  // Alpha is no light, unless it's asked for.
-  return read.channels.empty() ? without_alpha(std::move(source)) : std::move(source);
-}
-
-void Bake::check_source(Map& source) const {
-  if (sanitize) {
-    const std::uint64_t mended = welkin::sanitize(source);
-    if (mended > 0) fill_borders(source);
-    tell(fmt::format("welkin: {}: {} texels with NaN or infinite values mended\n", in, mended));
-  }
-  const SourceFaults faults = faults_of(source);
-  if (faults.not_finite > 0) {
-    throw Error(fmt::format("{}: {} texels have NaN or infinite values; --sanitize replaces them", in,
-                            faults.not_finite));
-  }
-  if (faults.excessive > 0) {
-    throw Error(fmt::format("{}: {} texels have values of over {:g}, too large to filter", in,
-                            faults.excessive, kMostRadiance));
-  }
-  if (faults.negative > 0) {
-    tell(fmt::format("welkin: {}: {} texels have negative values, and are filtered with them\n", in,
-                     faults.negative));
-  }
-  if (!source.parameterization.whole_world()) {
-    tell(fmt::format("welkin: {}: shows {:.1f} % of the sphere; the rest counts as black\n", in,
-                     100 * source.parameterization.coverage() / (4 * kPi)));
-  }
-}
-
 void Bake::run() {
   // Everything that can be wrong with the request, before any file is touched.
   read.parse();
@@ -142,16 +92,15 @@ void Bake::run() {
     orientation = parse_option("--convention",
                                [&] { return orientation_for(convention_from_name(convention), target); });
   }
-  // What was seen along d is seen along turn·d, where the file's own axes are told apart.
+  // The turn is in the texels; the file says its convention alone.
   options.orientation = orientation * turn;
   made.notes.normalisation = options.scale == LobeScale::integral ? "integral" : "radiance";
 
   BakeReport report{in, out, &made, options, {}, {}};
   Clock clock;
-  Map source = read_source();
+  const Map source = read_bake_source(in, read, sanitize ? Faults::mended : Faults::refused);
   const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
   if (!verify.empty()) check_verifiable(shape);
-  check_source(source);
   report.read_seconds = clock.lap();
   const PrefilterPlan plan(shape, target, made.levels, options);
   report.methods = plan.methods();
@@ -161,13 +110,11 @@ void Bake::run() {
   report.compute_seconds = clock.lap();
 
   if (!verify.empty()) {
-    std::vector<lobe::AnyLobe> lobes;
-    for (const PrefilterLevel& level : made.levels) lobes.push_back(level.lobe);
     VerifyOptions verify_options;
     verify_options.prefilter = options;
     verify_options.random_texels = std::stoi(verify);
     verify_options.monitor = progress_monitor("verify");
-    report.verification = verify_prefilter(source, chain.levels, lobes, verify_options);
+    report.verification = verify_prefilter(source, chain.levels, made.levels, verify_options);
     end_progress();
     report.verify_seconds = clock.lap();
   }

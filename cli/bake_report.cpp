@@ -13,11 +13,17 @@ std::string size_text(ChartSize size) {
   return fmt::format("{}×{}", size.width, size.height);
 }
 
-/// Padded on the left to a number of characters, of which × is one and two bytes.
-std::string right(const std::string& text, std::size_t width) {
+/// What a text lacks of a width in characters, of which × is one and two bytes.
+std::string padding(const std::string& text, std::size_t width) {
   std::size_t characters = 0;
   for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xc0) != 0x80 ? 1 : 0;
-  return std::string(width - std::min(width, characters), ' ') + text;
+  return std::string(width - std::min(width, characters), ' ');
+}
+std::string right(const std::string& text, std::size_t width) {
+  return padding(text, width) + text;
+}
+std::string left(const std::string& text, std::size_t width) {
+  return text + padding(text, width);
 }
 
 template <class T>
@@ -26,7 +32,9 @@ std::string or_dash(const char* format, const std::optional<T>& value) {
 }
 
 std::string method_text(const PrefilterMethod& method) {
-  return method.degree > 0 ? fmt::format("{} {}", method.name, method.degree) : method.name;
+  std::string text = method.degree > 0 ? fmt::format("{} {}", method.name, method.degree) : method.name;
+  if (method.widened > 0) text += fmt::format(", σ {:.2g}°", method.widened * 180 / kPi);
+  return text;
 }
 
 template <class T>
@@ -56,14 +64,14 @@ void BakeReport::print() const {
   const std::size_t count = m.levels.size();
   fmt::print("{}: {}, {} of {}, {} {}\n", printable(out), printable(m.notes.lobe), m.shape->text(),
              size_text(m.levels.front().size), count, count == 1 ? "level" : "levels");
-  fmt::print("level  {}  roughness  {:<16}", right("size", 11), "method");
+  fmt::print("level  {}  roughness  {}", right("size", 11), left("method", 25));
   if (!verification.empty()) fmt::print("  rel. RMSE %    max %    energy   furnace");
   fmt::print("\n");
   for (std::size_t i = 0; i < count; ++i) {
     const std::string roughness =
         i < m.notes.roughness.size() ? fmt::format("{:.6g}", m.notes.roughness[i]) : "–";
-    fmt::print("{:>5}  {}  {}  {:<16}", i, right(size_text(m.levels[i].size), 11), right(roughness, 9),
-               method_text(methods[i]));
+    fmt::print("{:>5}  {}  {}  {}", i, right(size_text(m.levels[i].size), 11), right(roughness, 9),
+               left(method_text(methods[i]), 25));
     if (!verification.empty()) {
       const LevelVerification& v = verification[i];
       std::optional<double> rmse, maximum;
@@ -98,6 +106,7 @@ void BakeReport::print_json() const {
     if (i < m.notes.roughness.size()) level["roughness"] = m.notes.roughness[i];
     level["method"] = methods[i].name;
     if (methods[i].degree > 0) level["degree"] = methods[i].degree;
+    if (methods[i].widened > 0) level["widened_radians"] = methods[i].widened;
     if (!verification.empty()) level["verification"] = json_of(verification[i]);
     report["levels"].push_back(std::move(level));
   }

@@ -44,7 +44,7 @@ std::string explain_extras(const CLI::App& app, const std::string& what) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Environment maps: convert, sample, measure.", "welkin"};
+  CLI::App app{"Environment maps: convert, bake, sample, measure.", "welkin"};
   app.set_version_flag("--version", std::string("welkin ") + WELKIN_VERSION);
   app.require_subcommand(1);
   app.fallthrough();

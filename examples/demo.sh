@@ -1,120 +1,195 @@
 #!/usr/bin/env bash
-# Makes one web page that shows built-in worlds in every parameterization, with the command that made each picture and how
-# evenly its texels cover the sphere. The page holds its pictures and works offline.
+# Bakes a built-in HDR map and makes one web page of it: the source, every level of the chain as it is stored and as a ball shows
+# it, its error against brute force, the time it took. The page holds its pictures and works offline.
 #
 # demo.sh WELKIN OUTPUT_FOLDER
 set -euo pipefail
+export LC_ALL=C.UTF-8
 
 (($# == 2)) || { printf 'usage: demo.sh WELKIN OUTPUT_FOLDER\n' >&2; exit 2; }
 welkin=$(cd -- "$(dirname -- "$1")" && pwd -P)/$(basename -- "$1")
 [[ -x $welkin ]] || { printf 'demo: %s is not a program\n' "$1" >&2; exit 1; }
+style=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)/demo_page.css
 mkdir -p -- "$2"
 cd -- "$2"
 : >demo.log
 
-worlds=(axes studio)
-world_size=512
-picture_size=192
 page=index.html
+exposure=-2
+turn=20,0,0                       # so that the balls show the room's corner
+mirrored=-1,0,0,0,1,0,0,0,1       # a ball's surface is seen from outside
 
+say() { printf 'demo: %s\n' "$*" >&2; }
 escaped() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g' -e 's/"/\&quot;/g' <<<"$1"; }
 
-# figure PICTURE ARGUMENT…: runs welkin with the arguments, which write PICTURE, and adds it to the page.
-figure() {
-  local picture=$1 command
+# --------------------------------------------------------------------------------------------------------------- commands
+
+# welkin ARGUMENT…: runs it. Pictures of bright lights are clipped, and said to be; that is not news here.
+welkin() { "$welkin" "$@" 2>>demo.log || { cat demo.log >&2; return 1; }; }
+
+# bake NAME ARGUMENT…: `welkin bake ARGUMENT… --json`, its report in NAME.json.
+bake() {
+  local name=$1
   shift
-  # Pictures of bright lights are clipped, and said to be; that is not news here.
-  "$welkin" "$@" >/dev/null 2>>demo.log || { cat demo.log >&2; return 1; }
-  command=$(escaped "welkin $*")
-  printf '<figure><img alt="%s" src="data:image/png;base64,' "$(escaped "$picture")"
-  base64 <"$picture" | tr -d '\n'
-  printf '"><figcaption><code>%s</code></figcaption></figure>\n' "$command"
+  say "welkin bake $*"
+  welkin bake "$@" --json >"$name.json"
 }
 
-# From `welkin plot density --json`, the row of one parameterization as "min max ratio".
-density_of() {
-  awk -v wanted="$1" '
-    function field(record, key,  at) {
-      at = match(record, "\"" key "\"[ \t\n]*:[ \t\n]*")
-      if (!at) return ""
-      record = substr(record, RSTART + RLENGTH)
-      sub(/^"/, "", record)
-      match(record, /^[^",}\n]*/)
-      return substr(record, 1, RLENGTH)
+# levels_of REPORT: a line a level of a bake's JSON, separated by tabs: level, size, roughness, method, rel. RMSE %, max %, energy,
+# furnace; a dash for what the report doesn't say.
+levels_of() {
+  awk '
+    function number(key, factor, format) { return value[key] ~ /^[-+0-9.]/ ? sprintf(format, value[key] * factor) : "–" }
+    function print_level() {
+      if (!("level" in value)) return
+      printf "%s\t%s×%s\t%s\t%s%s\t%s\t%s\t%s\t%s\n", value["level"], value["width"], value["height"], number("roughness", 1, "%g"),
+        value["method"], "degree" in value ? ", degree " value["degree"] : "", number("relative_rmse", 100, "%.2g"),
+        number("max_relative", 100, "%.2g"), number("energy", 1, "%.6f"), number("furnace", 1, "%.0e")
+      delete value
     }
-    BEGIN { RS = "}" }
-    field($0, "name") == wanted { print field($0, "min"), field($0, "max"), field($0, "ratio") }' density.json
+    match($0, /^ *"[a-z_]+": /) {
+      key = $1
+      gsub(/[":]/, "", key)
+      if (key == "level" || key == "seconds") print_level()
+      text = substr($0, RLENGTH + 1)
+      gsub(/[",]/, "", text)
+      if (key in value || key == "level" || "level" in value) value[key] = text
+    }' "$1.json"
 }
 
-short_number() { LC_ALL=C awk -v x="$1" 'BEGIN { if (x == "") print "–"; else if (x ~ /^[-+.0-9eE]+$/) printf "%.4g\n", x; else print x }'; }
+# seconds_of REPORT STEP
+seconds_of() { awk -v step="\"$2\":" '/"seconds"/ { inside = 1 } inside && $1 == step { sub(/,$/, "", $2); print $2 }' "$1.json"; }
 
-for world in "${worlds[@]}"; do
-  "$welkin" synth "$world" "$world.exr" --size "$world_size"
+milliseconds() { awk -v s="$1" 'BEGIN { printf s < 0.01 ? "%.1f" : "%.0f", 1000 * s }'; }
+
+# worst REPORT COLUMN: the largest of a column of levels_of.
+worst() { levels_of "$1" | awk -F '\t' -v column="$2" '$column != "–" && $column + 0 >= most { most = $column + 0 } END { print most }'; }
+
+# --------------------------------------------------------------------------------------------------------------- pictures
+
+# picture CLASS ALT FILE [ARGUMENT…]: FILE as an <img>, after `welkin convert ARGUMENT…` has made it.
+picture() {
+  local class=$1 alt=$2 file=$3
+  shift 3
+  welkin convert "$1" "$file" "${@:2}" --type uint8
+  printf '<img class="%s" alt="%s" src="data:image/png;base64,' "$class" "$(escaped "$alt")"
+  base64 <"$file" | tr -d '\n'
+  printf '">'
+}
+
+# mirror_ball CHAIN LEVEL SIZE EXPOSURE: the ball that reflects a level: each pixel looks it up along the reflected ray.
+mirror_ball() {
+  picture ball "ball that reflects level $2" "${1%.*}-ball-$2.png" "$1" --level "$2" --to sphere --size "$3" --rotate "$turn" --exposure "$4"
+}
+
+# matt_ball MAP SIZE EXPOSURE: the ball whose pixels look the map up along the normal.
+matt_ball() {
+  picture ball 'matt ball' "${1%.*}-ball.png" "$1" --to fisheye-orthographic --size "$2" --rotate "$mirrored" --exposure "$3"
+}
+
+# cross CHAIN LEVEL TEXELS: a level's cube, texels as they are stored where there are at most 96 of them.
+cross() {
+  picture 'cross texels' "cube of level $2" "${1%.*}-cube-$2.png" "$1" --level "$2" --to cube:hcross --size "$(($3 < 96 ? $3 : 96))" \
+    --exposure "$exposure"
+}
+
+# ------------------------------------------------------------------------------------------------------------------- work
+
+started=$SECONDS
+say 'welkin synth room room.exr --size 1024'
+welkin synth room room.exr --size 1024
+welkin convert room.exr room.pfm
+bake specular room.exr specular.ktx2 --verify
+bake diffuse room.exr diffuse.ktx2 --lobe lambert --verify
+
+# Three runs for the time; the one of middle length counts.
+say 'welkin bake room.pfm timed.ktx2, three times'
+TIMEFORMAT='%R %U %S'
+for run in 1 2 3; do
+  { time welkin bake room.pfm timed.ktx2 --json >"timed-$run.json"; } 2>"timed-$run.txt"
 done
-"$welkin" plot density --json >density.json
-mapfile -t parameterizations < <("$welkin" list parameterizations)
-((${#parameterizations[@]})) || { printf 'demo: welkin lists no parameterization\n' >&2; exit 1; }
+read -r wall user system run < <(for run in 1 2 3; do printf '%s %s\n' "$(cat "timed-$run.txt")" "$run"; done | sort -n | sed -n 2p)
+cpu=$(awk -v a="$user" -v b="$system" 'BEGIN { print a + b }')
+processors=$(nproc 2>/dev/null || echo '?')
+model=$(sed -n 's/^model name[ \t]*: //p' /proc/cpuinfo 2>/dev/null | sed -n 1p)
+
+others=(studio sky)
+for other in "${others[@]}"; do
+  welkin synth "$other" "$other.exr" --size 1024
+  bake "$other" "$other.exr" "$other.ktx2" --verify=32
+done
+
+# ------------------------------------------------------------------------------------------------------------------- page
+
+# A bar a line of "class seconds label" on a logarithmic axis from 10 ms to 100 s.
+chart() {
+  awk '
+    function across(seconds,  at) { at = 25 * log(seconds / 0.01) / log(10); return at < 0.5 ? 0.5 : at > 100 ? 100 : at }
+    { class[NR] = $1; seconds[NR] = $2; $1 = $2 = ""; label[NR] = substr($0, 3) }
+    END {
+      height = NR * 42
+      printf "<svg width=\"100%%\" height=\"%d\" role=\"img\" aria-label=\"Bar chart of the times in the table below\">\n", height + 24
+      split("10 ms,100 ms,1 s,10 s,100 s", tick, ",")
+      for (i = 0; i < 5; i++) {
+        printf "<line x1=\"%d%%\" x2=\"%d%%\" y1=\"0\" y2=\"%d\"/>", 25 * i, 25 * i, height + 4
+        printf "<text class=\"axis\" x=\"%d%%\" y=\"%d\" text-anchor=\"%s\">%s</text>\n", 25 * i, height + 20, i == 0 ? "start" : i == 4 ? "end" : "middle", tick[i + 1]
+      }
+      for (i = 1; i <= NR; i++) {
+        y = (i - 1) * 42
+        printf "<text x=\"6\" y=\"%d\">%s</text><rect class=\"%s\" x=\"0\" y=\"%d\" width=\"%.2f%%\" height=\"14\" rx=\"3\"/>\n", y + 14, label[i], class[i], y + 20, across(seconds[i])
+      }
+      print "</svg>"
+    }'
+}
+
+# table_rows NAME: rows of what levels_of prints; "diffuse" has one.
+table_rows() {
+  levels_of "$1" | awk -F '\t' -v only="${2:-}" '{
+    print "<tr><td>" (only == "" ? "level " $1 : only) "</td><td>" $2 "</td><td>" $3 "</td><td>" $4 "</td><td>" $5 "</td><td>" $6 "</td><td>" $7 "</td><td>" $8 "</td></tr>" }'
+}
+
+levels=$(levels_of specular | wc -l)
+((levels > 1)) || { say 'the report of welkin bake cannot be read'; exit 1; }
 
 {
+  printf '<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+  printf '<title>Welkin: lighting from a map</title>\n<style>\n'
+  cat "$style"
   cat <<'HTML'
-<!doctype html>
-<html lang="en">
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>Welkin: one world, every parameterization</title>
-<style>
-  :root { color-scheme: light dark; --page: #f6f7f9; --card: #fff; --ink: #1c2430; --faint: #5b6675; --line: #dde2e8; }
-  @media (prefers-color-scheme: dark) {
-    :root { --page: #12161c; --card: #1a2029; --ink: #e4e9f0; --faint: #94a1b2; --line: #2b3441; }
-  }
-  body { margin: 0 auto; max-width: 76rem; padding: 2rem 1.2rem 4rem; background: var(--page); color: var(--ink);
-         font: 16px/1.5 system-ui, sans-serif; }
-  h1 { font-size: 1.7rem; margin: 0 0 .3rem; }
-  h2 { font-size: 1.15rem; margin: 2.4rem 0 .2rem; padding-top: 1rem; border-top: 1px solid var(--line); }
-  p { margin: .2rem 0 .8rem; color: var(--faint); max-width: 46rem; }
-  .row { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 17rem), 1fr)); }
-  figure { margin: 0; padding: .7rem; background: var(--card); border: 1px solid var(--line); border-radius: .5rem;
-           display: flex; flex-direction: column; justify-content: space-between; gap: .6rem; }
-  img { display: block; margin: auto; max-width: 100%; max-height: 24rem; height: auto; }
-  code { font: .8rem/1.4 ui-monospace, monospace; color: var(--faint); overflow-wrap: anywhere; }
-  table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-  th, td { padding: .25rem 1rem .25rem 0; text-align: right; border-bottom: 1px solid var(--line); }
-  th:first-child, td:first-child { text-align: left; }
-  a { color: inherit; }
 </style>
-<h1>One world, every parameterization</h1>
-<p>A map is a function from direction to radiance; a parameterization says where a direction lies in a picture. Below are the
-built-in worlds in each one that Welkin knows, and how evenly its texels
-cover the sphere. The command under a picture made it.</p>
+<h1>Lighting from a map</h1>
+<p>A rough surface reflects a blurred world. <code>welkin bake</code> blurs an environment map once for every roughness, so that a
+renderer only looks it up; then it measures how far the result is from brute force. These commands made what is below:</p>
+<pre>welkin synth room room.exr --size 1024
+welkin bake room.exr specular.ktx2 --verify
+welkin bake room.exr diffuse.ktx2 --lobe lambert --verify</pre>
 HTML
-  printf '<p><code>%s</code></p>\n' "$(escaped "$("$welkin" --version)")"
 
-  printf '<h2>Worlds</h2>\n<div class="row">\n'
-  for world in "${worlds[@]}"; do
-    figure "$world.png" synth "$world" "$world.png" --size "$world_size" --type uint8
-  done
-  printf '</div>\n<h2>Texel density</h2>\n'
-  printf '<p>The solid angle of a texel over the average: least, greatest, and their ratio. 1 is even. <code>welkin plot density --json</code></p>\n'
-  printf '<table><tr><th>parameterization</th><th>min</th><th>max</th><th>ratio</th></tr>\n'
-  for name in "${parameterizations[@]}"; do
-    read -r least greatest ratio < <(density_of "$name") || true
-    printf '<tr><td><a href="#%s">%s</a></td><td>%s</td><td>%s</td><td>%s</td></tr>\n' "$(escaped "$name")" \
-      "$(escaped "$name")" "$(short_number "${least:-}")" "$(short_number "${greatest:-}")" "$(short_number "${ratio:-}")"
-  done
-  printf '</table>\n'
+  printf '<div class="strip">\n'
+  while IFS=$'\t' read -r level _ roughness _; do
+    printf '<a href="#level-%s">' "$level"
+    mirror_ball specular.ktx2 "$level" 256 "$exposure"
+    printf '%s</a>\n' "$roughness"
+  done < <(levels_of specular)
+  printf '</div>\n<p class="faint">One ball, nine roughnesses. Each pixel looks up one level along the reflected ray.</p>\n'
 
-  for name in "${parameterizations[@]}"; do
-    printf 'demo: %s\n' "$name" >&2
-    file=${name//[^A-Za-z0-9-]/-}
-    printf '<h2 id="%s">%s</h2>\n<div class="row">\n' "$(escaped "$name")" "$(escaped "$name")"
-    for world in "${worlds[@]}"; do
-      figure "$world-$file.png" convert "$world.exr" "$world-$file.png" --to "$name" --size "$picture_size" --type uint8
-    done
-    figure "density-$file.png" plot density "density-$file.png" --of "$name"
-    printf '</div>\n'
-  done
-  printf '</html>\n'
+  printf '<h2>The source</h2>\n<figure>\n'
+  picture wide 'the room as a lat-long' room.png room.exr --size 1024x512 --exposure "$exposure"
+  cat <<HTML
+<figcaption>A room lit exactly, 1024×512 texels. Its lamp is 50,000 times brighter than … </figcaption></figure>
+HTML
+
+  cat <<'HTML'
+<h2>The chain</h2>
+<p>A cube texture of nine levels for the GGX lobe, from a mirror to roughness 1, each level half as large as the one before. On the
+left the ball that reflects the level, on the right its six faces, texel by texel.</p>
+<div class="cards">
+HTML
+  while IFS=$'\t' read -r level size roughness _ error _; do
+    printf '<div class="card" id="level-%s"><h3>Roughness %s <small>level %s, %s</small></h3><div class="pair">\n' "$level" "$roughness" "$level" "$size"
+    mirror_ball specular.ktx2 "$level" 256 "$exposure"
+    cross specular.ktx2 "$level" "${size%%×*}"
+    printf '</div></div>\n'
+  done < <(levels_of specular)
+  printf '</div>\n'
 } >"$page.tmp"
-mv -- "$page.tmp" "$page"
-
-printf 'The page is %s/%s: open it in a browser.\n' "$PWD" "$page"

@@ -148,7 +148,7 @@ for page in "${pages[@]}"; do
     help=$(help_of "$command"; if [[ $command == plot && ${words[2]:-} =~ ^[a-z]+$ ]]; then help_of plot "${words[2]}"; fi; help_of)
     for word in "${words[@]:2}"; do
       [[ $word =~ ^--[a-z-]+ ]] || continue
-      grep -qE -- "(^|[ ,])${BASH_REMATCH[0]}([ ,=:]|$)" <<<"$help" || breach "$page: '$use': welkin $command has no ${BASH_REMATCH[0]}"
+      grep -qE -- "(^|[ ,])${BASH_REMATCH[0]}([ ,=:{]|$)" <<<"$help" || breach "$page: '$use': welkin $command has no ${BASH_REMATCH[0]}"
     done
   done < <(grep -oE '`welkin [^`]*`|^ {4}welkin .*' "$page" | sed -E 's/^[` ]*//; s/`$//')
 done

@@ -26,8 +26,8 @@ std::vector<const Kernels*> all_tables() {
   return list;
 }
 
-const int kLengths[] = {4,  5,  6,  8,   9,   10,  12,  15,  16,  18,  20,  24,  25,  27,   30,   32,  36,
-                        45, 48, 60, 64,  72,  75,  80,  81,  96,  100, 108, 120, 125, 128,  144,  150, 160,
+const int kLengths[] = {4,   5,   6,   8,   9,   10,  12,  15,  16,  18,  20,  24,  25,  27,  30,   32,  36,
+                        45,  48,  60,  64,  72,  75,  80,  81,  96,  100, 108, 120, 125, 128, 144,  150, 160,
                         180, 240, 243, 250, 256, 300, 360, 384, 400, 500, 512, 625, 640, 720, 1000, 1024};
 
 /// Sixteen real rows of random numbers in −1…1, [column][row].
@@ -43,7 +43,7 @@ Buffer random_rows(int length, unsigned seed) {
 Complex order_of(const float* rows, int length, int row, int m) {
   Complex sum = 0;
   for (int x = 0; x < length; ++x) {
-    const double angle = -2 * std::numbers::pi * (static_cast<double>(m) * x - std::floor(static_cast<double>(m) * x / length) * length) / length;
+    const double angle = -2 * std::numbers::pi * (m * x % length) / length;
     sum += static_cast<double>(rows[x * 16 + row]) * Complex(std::cos(angle), std::sin(angle));
   }
   return sum;
@@ -90,8 +90,10 @@ TEST(Fft, OrdersAreTheFourierSums) {
             const int place = m * kStep + parity * kParts * 8 + (2 * kChannel + part) * 8 + lane;
             return static_cast<double>(orders[static_cast<std::size_t>(place)]);
           };
-          EXPECT_LT(std::abs(Complex(at(0, 0), at(0, 1)) - (north + south)), 2 * bound(length)) << length << ' ' << m;
-          EXPECT_LT(std::abs(Complex(at(1, 0), at(1, 1)) - (north - south)), 2 * bound(length)) << length << ' ' << m;
+          EXPECT_LT(std::abs(Complex(at(0, 0), at(0, 1)) - (north + south)), 2 * bound(length))
+              << length << ' ' << m;
+          EXPECT_LT(std::abs(Complex(at(1, 0), at(1, 1)) - (north - south)), 2 * bound(length))
+              << length << ' ' << m;
         }
       }
       // Nothing is written beside: the other channel and the other packs.
@@ -116,10 +118,11 @@ TEST(Fft, RowsAreTheFourierSeries) {
           for (int lane = 0; lane < 8; ++lane) orders[static_cast<std::size_t>(parity * 16 + 8 + lane)] = 0;
         }
         Buffer lanes(static_cast<std::size_t>(length) * 16), work(lanes.size());
-        const float* rows = table->orders_to_rows(plan, orders.data(), degree, 1, 2, lanes.data(), work.data());
+        const float* rows =
+            table->orders_to_rows(plan, orders.data(), degree, 1, 2, lanes.data(), work.data());
         const double norm = std::sqrt(8.0 * (degree + 1));
         for (const int lane : {0, 5, 8, 13}) {
-          for (int x = 0; x < length; x += length > 200 ? 7 : 1) {
+          for (int x = 0; x<length; x += length> 200 ? 7 : 1) {
             double sum = 0;
             for (int m = 0; m <= degree; ++m) {
               const auto at = [&](int parity, int part) {
@@ -128,10 +131,11 @@ TEST(Fft, RowsAreTheFourierSeries) {
               };
               const double side = lane < 8 ? 1 : -1;
               const Complex a(at(0, 0) + side * at(1, 0), at(0, 1) + side * at(1, 1));
-              const double angle = 2 * std::numbers::pi * (static_cast<long>(m) * x % length) / length;
+              const double angle = 2 * std::numbers::pi * (m * x % length) / length;
               sum += (m == 0 ? 1 : 2) * (a * Complex(std::cos(angle), std::sin(angle))).real();
             }
-            EXPECT_NEAR(static_cast<double>(rows[x * 16 + lane]), sum, 1.2e-7 * (1 + std::log2(length)) * norm)
+            EXPECT_NEAR(static_cast<double>(rows[x * 16 + lane]), sum,
+                        1.2e-7 * (1 + std::log2(length)) * norm)
                 << length << ' ' << degree << ' ' << x;
           }
         }
@@ -149,12 +153,14 @@ TEST(Fft, BackIsTheInverse) {
       const int degree = (length - 1) / 2;
       const Buffer rows = random_rows(length, 3);
       Buffer data = random_rows(length, 3), work(data.size());
-      const std::vector<float> factors(static_cast<std::size_t>(degree + 1), 0.5f / static_cast<float>(length));
+      const std::vector<float> factors(static_cast<std::size_t>(degree + 1),
+                                       0.5f / static_cast<float>(length));
       std::vector<float> orders(static_cast<std::size_t>(degree + 1) * 32);
       table->rows_to_orders(plan, data.data(), work.data(), factors.data(), degree, 1, 2, orders.data());
       const float* back = table->orders_to_rows(plan, orders.data(), degree, 1, 2, data.data(), work.data());
       for (int i = 0; i < length * 16; ++i) {
-        EXPECT_NEAR(static_cast<double>(back[i]), static_cast<double>(rows.data()[i]), 3e-7 * (1 + std::log2(length)))
+        EXPECT_NEAR(static_cast<double>(back[i]), static_cast<double>(rows.data()[i]),
+                    3e-7 * (1 + std::log2(length)))
             << length << ' ' << i;
       }
     }

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <mutex>
 
-#include "welkin/map/fetch.h"
 #include "welkin/prefilter/bright_points.h"
 #include "welkin/prefilter/kernels.h"
+#include "welkin/prefilter/level_texels.h"
 #include "welkin/prefilter/moments.h"
 #include "welkin/prefilter/spline_grid.h"
 #include "welkin/prefilter/tables.h"
@@ -15,8 +17,6 @@ namespace {
 using namespace prefilter;
 using Tables = PrefilterPlan::Tables;
 
-constexpr std::size_t kBatch = 256;
-
 /// Where the coefficients of order m begin, degrees m … degree one after the other.
 std::size_t offset_of(int m, int degree) {
   const std::size_t n = static_cast<std::size_t>(m);
@@ -26,9 +26,11 @@ std::size_t offset_of(int m, int degree) {
 /// The pipeline for up to three channels from `first`.
 class Harmonics {
  public:
-  Harmonics(const Tables& tables, Moments& moments, int first, int channels, std::vector<Level>& grids)
+  Harmonics(const Tables& tables, Moments& moments, const BrightPoints& bright, int first, int channels,
+            std::vector<Level>& grids)
       : t_(tables),
         moments_(moments),
+        bright_(bright),
         first_(first),
         channels_(channels),
         parts_(2 * channels),
@@ -37,6 +39,7 @@ class Harmonics {
   void run(const Monitor& monitor) {
     transform_rows(monitor);
     analyse(monitor);
+    if (!t_.near.empty()) add_bright();
     synthesise(monitor);
     transform_back(monitor);
   }
@@ -77,6 +80,49 @@ class Harmonics {
         monitor);
   }
 
+  /// What the far parts of narrow lobes need: the coefficients of all masses, the bright ones included.
+  void add_bright() {
+    const std::size_t size = offset_of(t_.degree + 1, t_.degree) * static_cast<std::size_t>(parts_);
+    all_coefficients_ = Buffer(size);
+    std::memcpy(all_coefficients_.data(), coefficients_.data(), size * sizeof(float));
+    if (bright_.count() == 0) return;
+    // A point is a row of its own, north or south of the equator.
+    const std::size_t count = static_cast<std::size_t>(bright_.count());
+    std::vector<double> cosines, angles;
+    for (std::size_t i = 0; i < count; ++i) {
+      cosines.push_back(std::fabs(static_cast<double>(bright_.y[i])));
+      const double u =
+          0.5 - std::atan2(static_cast<double>(bright_.x[i]), static_cast<double>(bright_.z[i])) / (2 * kPi);
+      angles.push_back(2 * kPi * (u - 0.5 / moments_.width));
+    }
+    const Latitudes latitudes(cosines, t_.degree);
+    parallel_for(t_.degree + 1, [&](int m) {
+      std::vector<float> rows(order_size(latitudes), 0.0f);
+      for (std::size_t i = 0; i < count; ++i) {
+        const float re = static_cast<float>(std::cos(m * angles[i])),
+                    im = static_cast<float>(-std::sin(m * angles[i]));
+        const float side = bright_.y[i] < 0 ? -1.0f : 1.0f;
+        float* even = rows.data() + i / 8 * 16 * static_cast<std::size_t>(parts_) + i % 8;
+        float* odd = even + 8 * parts_;
+        for (int c = 0; c < channels_; ++c) {
+          const float mass = bright_.mass[i * static_cast<std::size_t>(bright_.channels) +
+                                          static_cast<std::size_t>(first_ + c)];
+          even[16 * c] = mass * re;
+          even[16 * c + 8] = mass * im;
+          odd[16 * c] = side * mass * re;
+          odd[16 * c + 8] = side * mass * im;
+        }
+      }
+      Buffer work(static_cast<std::size_t>((t_.degree + 2) * parts_ * 8));
+      const std::size_t terms = static_cast<std::size_t>((t_.degree - m + 1) * parts_);
+      std::vector<float> sums(terms);
+      kernels().analyse[channels_ - 1](latitudes, t_.recurrences[static_cast<std::size_t>(m)], t_.degree,
+                                       rows.data(), work.data(), sums.data());
+      float* to = all_coefficients_.data() + offset_of(m, t_.degree) * static_cast<std::size_t>(parts_);
+      for (std::size_t k = 0; k < terms; ++k) to[k] += sums[k];
+    });
+  }
+
   void synthesise(const Monitor& monitor) {
     struct Item {
       std::size_t level;
@@ -94,15 +140,24 @@ class Harmonics {
         [&](int k) {
           const auto [i, m] = items[static_cast<std::size_t>(k)];
           synthesise_order(
-              t_.harmonic[i], m,
+              t_.harmonic[i], is_far(i) ? all_coefficients_ : coefficients_, m,
               level_orders_[i].data() + order_size(t_.harmonic[i].latitudes) * static_cast<std::size_t>(m));
         },
         monitor);
   }
 
-  void synthesise_order(const HarmonicLevel& level, int m, float* orders) {
+  bool is_far(std::size_t harmonic) const {
+    for (const NearGroup& group : t_.near) {
+      for (const NearLevel& level : group.levels) {
+        if (level.harmonic == harmonic) return true;
+      }
+    }
+    return false;
+  }
+
+  void synthesise_order(const HarmonicLevel& level, const Buffer& coefficients, int m, float* orders) {
     const Recurrence& r = t_.recurrences[static_cast<std::size_t>(m)];
-    const float* a = coefficients_.data() + offset_of(m, t_.degree) * static_cast<std::size_t>(parts_);
+    const float* a = coefficients.data() + offset_of(m, t_.degree) * static_cast<std::size_t>(parts_);
     const float cosine = level.turn[static_cast<std::size_t>(2 * m)];
     const float sine = level.turn[static_cast<std::size_t>(2 * m + 1)];
     std::vector<float> scaled(static_cast<std::size_t>((level.degree - m + 1) * parts_));
@@ -162,100 +217,25 @@ class Harmonics {
 
   const Tables& t_;
   Moments& moments_;
+  const BrightPoints& bright_;
   int first_, channels_, parts_;
   std::vector<Level>& grids_;
-  Buffer orders_, coefficients_;
+  Buffer orders_, coefficients_, all_coefficients_;
   std::vector<Buffer> level_orders_;
 };
 
-/// Level texels: the grid's spline, and the bright points' exact sums.
-class Tiles {
- public:
-  Tiles(const HarmonicLevel& level, const Level& grid, const BrightPoints& bright, const Matrix3& to_source,
-        bool hold_positive, Map& result)
-      : level_(level),
-        view_(view_of(grid)),
-        fetch_(fetch_kernels(grid.channels()).b_spline),
-        bright_(bright),
-        grid_shape_(sphere::AnyParameterization::make("latlong")),
-        to_source_(to_source),
-        hold_positive_(hold_positive),
-        result_(result),
-        masses_(bright.mass) {
-    for (float& mass : masses_) mass *= static_cast<float>(level.scale);
-  }
-
-  void rows(int chart, int from, int rows) const {
-    const int width = result_.width(), height = result_.height(), n = result_.channels();
-    alignas(64) float u[kBatch], v[kBatch], x[kBatch], y[kBatch], z[kBatch];
-    alignas(64) float at_chart[kBatch], at_u[kBatch], at_v[kBatch];
-    std::vector<float> values(kBatch * static_cast<std::size_t>(n) + 8);
-    const auto& p = result_.parameterization;
-    const std::size_t all = static_cast<std::size_t>(rows) * static_cast<std::size_t>(width);
-    for (std::size_t first = 0; first < all; first += kBatch) {
-      const std::size_t count = std::min(kBatch, all - first);
-      for (std::size_t i = 0; i < sphere::padded(count); ++i) {
-        const int k = static_cast<int>(first + std::min(i, count - 1));
-        u[i] = (static_cast<float>(k % width) + 0.5f) / static_cast<float>(width);
-        v[i] = (static_cast<float>(from + k / width) + 0.5f) / static_cast<float>(height);
-      }
-      p.kernels().to_sphere(p.self(), chart, u, v, x, y, z, count);
-      turn(x, y, z, sphere::padded(count));
-      grid_shape_.kernels().from_sphere(grid_shape_.self(), x, y, z, at_chart, at_u, at_v, count);
-      fetch_(view_, at_chart, at_u, at_v, values.data(), count);
-      add_bright(x, y, z, values.data(), count);
-      if (hold_positive_) {
-        for (std::size_t i = 0; i < count * static_cast<std::size_t>(n); ++i)
-          values[i] = std::max(values[i], 0.0f);
-      }
-      // Rows of a tile follow each other in the chart with its borders between.
-      for (std::size_t i = 0; i < count;) {
-        const int k = static_cast<int>(first + i);
-        const std::size_t run = std::min(count - i, static_cast<std::size_t>(width - k % width));
-        std::memcpy(result_.level.chart(chart).at(k % width, from + k / width),
-                    values.data() + i * static_cast<std::size_t>(n),
-                    run * static_cast<std::size_t>(n) * sizeof(float));
-        i += run;
-      }
+/// One thread's work: a worker that waits for this must not be given other work meanwhile.
+bool has_negative(const Map& map) {
+  for (int chart = 0; chart < map.charts(); ++chart) {
+    for (int y = 0; y < map.height(); ++y) {
+      const float* row = map.level.chart(chart).row(y);
+      int below = 0;
+      for (int i = 0; i < map.width() * map.channels(); ++i) below += row[i] < 0 ? 1 : 0;
+      if (below > 0) return true;
     }
   }
-
- private:
-  void turn(float* x, float* y, float* z, std::size_t count) const {
-    if (to_source_ == Matrix3{}) return;
-    float f[3][3];
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) f[i][j] = static_cast<float>(to_source_.rows[i][j]);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const float a = x[i], b = y[i], c = z[i];
-      x[i] = f[0][0] * a + f[0][1] * b + f[0][2] * c;
-      y[i] = f[1][0] * a + f[1][1] * b + f[1][2] * c;
-      z[i] = f[2][0] * a + f[2][1] * b + f[2][2] * c;
-    }
-  }
-
-  void add_bright(const float* x, const float* y, const float* z, float* values, std::size_t count) const {
-    if (bright_.count() == 0) return;
-    const lobe::Points points{bright_.x.data(), bright_.y.data(), bright_.z.data(),
-                              masses_.data(),   bright_.count(),  bright_.channels};
-    if (level_.sampled.empty()) {
-      level_.lobe.point_sums()(level_.lobe.self(), points, x, y, z, values, count);
-    } else {
-      kernels().sampled_sums(&level_.sampled[0], points, x, y, z, values, count);
-    }
-  }
-
-  const HarmonicLevel& level_;
-  LevelView view_;
-  Fetch fetch_;
-  const BrightPoints& bright_;
-  sphere::AnyParameterization grid_shape_;
-  Matrix3 to_source_;
-  bool hold_positive_;
-  Map& result_;
-  std::vector<float> masses_;  ///< the bright points', times the lobe's scale
-};
+  return false;
+}
 
 }  // namespace
 
@@ -269,7 +249,15 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
     grids.emplace_back(1, level.grid.width, level.grid.height, source.channels());
   }
   for (int first = 0; first < source.channels(); first += 3) {
-    Harmonics(t, moments, first, std::min(3, source.channels() - first), grids).run(monitor);
+    Harmonics(t, moments, bright, first, std::min(3, source.channels() - first), grids).run(monitor);
+  }
+
+  std::vector<std::vector<Level>> near_grids;
+  std::vector<const Level*> near(t.harmonic.size(), nullptr);
+  for (const NearGroup& group : t.near) {
+    near_grids.push_back(run_near(group, source, monitor));
+    for (std::size_t i = 0; i < group.levels.size(); ++i)
+      near[group.levels[i].harmonic] = &near_grids.back()[i];
   }
 
   constexpr int kColumns = 64;
@@ -291,6 +279,14 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
       monitor);
   for (Level& grid : grids) fill_latlong_border(grid);
 
+  // Sums of light that is never negative are held there. Whether it is, is looked up when it first matters.
+  std::once_flag looked;
+  bool negative = false;
+  const std::function<bool()> hold_positive = [&] {
+    std::call_once(looked, [&] { negative = has_negative(source); });
+    return !negative;
+  };
+
   struct Band {
     std::size_t level;
     int chart, row, rows;
@@ -310,7 +306,8 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
         const Band& band = bands[static_cast<std::size_t>(k)];
         Map& result = results[static_cast<std::size_t>(t.harmonic[band.level].index)];
         const Matrix3 to_source = source.orientation * transpose(result.orientation);
-        Tiles(t.harmonic[band.level], grids[band.level], bright, to_source, true, result)
+        LevelTexels(t.harmonic[band.level], grids[band.level], near[band.level], bright, to_source,
+                    hold_positive, result)
             .rows(band.chart, band.row, band.rows);
       },
       monitor);

@@ -4,6 +4,7 @@
 #include "welkin/prefilter/fft.h"
 #include "welkin/prefilter/legendre.h"
 #include "welkin/prefilter/moments.h"
+#include "welkin/prefilter/near_field.h"
 
 /// The inner loops of pre-filtering, compiled once per instruction set. `parts` are the real and imaginary
 /// parts of up to three channels: 2, 4 or 6 values side by side.
@@ -51,6 +52,19 @@ struct Kernels {
   /// The reverse: fills `lanes`, [column][16], and returns where the result is: `lanes` or `work`.
   float* (*orders_to_rows)(const FftPlan& plan, const float* orders, int degree, int packs, int parts,
                            float* lanes, float* work);
+
+  /// The same as rows_to_orders for NearField: orders as [order][part][reach + row + reach], row by row.
+  /// `orders` is at [0][2·channel][reach]; `step` values from one order to the next, `part` from one part to
+  /// the next.
+  void (*rows_to_near)(const FftPlan& plan, float* lanes, float* work, const float* factors, int last,
+                       int pack, int rows, std::ptrdiff_t step, std::ptrdiff_t part, float* orders);
+  /// One order of the result's rows, laid out in the same way, from that of the masses.
+  void (*near[3])(const NearField& field, int order, const float* from, std::ptrdiff_t part, float* to,
+                  std::ptrdiff_t to_part);
+  /// Rows 8·pack … and rows/2 + 8·pack … of a channel, [column][16], from orders; returns where they are.
+  float* (*near_to_rows)(const FftPlan& plan, const float* orders, int last, int pack, int rows,
+                         std::ptrdiff_t step, std::ptrdiff_t part, const float* turn, float* lanes,
+                         float* work);
 
   /// Of a SampledLobe.
   lobe::PointSums sampled_sums;

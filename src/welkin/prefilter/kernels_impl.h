@@ -7,6 +7,7 @@
 #include "welkin/prefilter/fft_impl.h"
 #include "welkin/prefilter/kernels.h"
 #include "welkin/prefilter/legendre_impl.h"
+#include "welkin/prefilter/near_impl.h"
 #include "welkin/prefilter/sampled_lobe.h"
 
 /// Included by one source file per instruction set; everything carries its architecture in its template
@@ -198,6 +199,10 @@ struct KernelsOf {
         &spread_rows,
         &rows_to_orders,
         &orders_to_rows,
+        &NearRows<Arch>::rows_to_near,
+        {&NearRows<Arch>::template near<2>, &NearRows<Arch>::template near<4>,
+         &NearRows<Arch>::template near<6>},
+        &NearRows<Arch>::near_to_rows,
         &sampled_sums,
         {&Legendre<Arch, 2>::analyse, &Legendre<Arch, 4>::analyse, &Legendre<Arch, 6>::analyse},
         {&Legendre<Arch, 2>::synthesise, &Legendre<Arch, 4>::synthesise, &Legendre<Arch, 6>::synthesise}};

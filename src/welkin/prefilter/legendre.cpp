@@ -7,27 +7,38 @@
 
 namespace welkin::prefilter {
 
-Latitudes::Latitudes(int rows, int degree) : count(rows / 2), packs((rows / 2 + 7) / 8) {
+namespace {
+
+/// cos (i + ½)π/rows of the northern rows.
+std::vector<double> even_cosines(int rows) {
   assert(rows >= 2 && rows % 2 == 0);
+  std::vector<double> cosines;
+  for (int i = 0; i < rows / 2; ++i) cosines.push_back(std::cos((i + 0.5) * std::numbers::pi / rows));
+  return cosines;
+}
+
+}  // namespace
+
+Latitudes::Latitudes(int rows, int degree) : Latitudes(even_cosines(rows), degree) {}
+
+Latitudes::Latitudes(const std::vector<double>& cosines, int degree)
+    : count(static_cast<int>(cosines.size())), packs((count + 7) / 8) {
   const std::size_t lanes = static_cast<std::size_t>(packs) * 8;
   cosine_squared.resize(lanes);
   cosine.resize(lanes);
   log_sine.resize(lanes);
-  last_order.resize(static_cast<std::size_t>(packs));
-  for (int i = 0; i < packs * 8; ++i) {
-    const double theta = (std::min(i, count - 1) + 0.5) * std::numbers::pi / rows;
-    const double x = std::cos(theta);
-    const std::size_t lane = static_cast<std::size_t>(i);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double x = cosines[std::min(lane, cosines.size() - 1)];
     cosine[lane] = x;
     cosine_squared[lane] = static_cast<float>(x * x);
-    log_sine[lane] = std::log(std::sin(theta));
+    log_sine[lane] = 0.5 * std::log(std::max(1e-300, (1 - x) * (1 + x)));
   }
   for (int pack = 0; pack < packs; ++pack) {
     // Beyond its turning point m = l sin θ a function dies off within a few widths m^⅓ of Airy's.
-    const double sine = std::exp(log_sine[static_cast<std::size_t>(pack) * 8 + 7]);
-    const double turning = degree * sine;
-    last_order[static_cast<std::size_t>(pack)] =
-        static_cast<int>(turning + std::max(16.0, 6 * std::cbrt(turning)));
+    double widest = log_sine[static_cast<std::size_t>(pack) * 8];
+    for (int i = 1; i < 8; ++i) widest = std::max(widest, log_sine[static_cast<std::size_t>(pack * 8 + i)]);
+    const double turning = degree * std::exp(widest);
+    last_order.push_back(static_cast<int>(turning + std::max(16.0, 6 * std::cbrt(turning))));
   }
 }
 

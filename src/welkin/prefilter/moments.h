@@ -73,6 +73,8 @@ struct MomentPlan {
   };
   /// For harmonics up to this degree.
   MomentPlan(const sphere::AnyParameterization& source, ChartSize size, int degree);
+  /// With this many rows, for NearField; columns as wide as the picture's while there aren't three to a row.
+  static MomentPlan with_rows(const sphere::AnyParameterization& source, ChartSize size, int rows);
 
   Way way = Way::scatter;
   int width = 0, height = 0;
@@ -83,6 +85,9 @@ struct MomentPlan {
   int rows_per_mass = 0;              ///< 0 when it isn't a whole number
   std::vector<RowSpread> rows;        ///< none or one
   std::vector<ColumnSpread> columns;  ///< none or one
+
+ private:
+  MomentPlan() = default;
 };
 
 /// The masses of a map of the plan's shape. Throws Cancelled.

@@ -60,31 +60,79 @@ Filter mirror_filter(const PrefilterOptions& options, const Map& from,
 
 }  // namespace
 
-HarmonicLevel::HarmonicLevel(const WidenedLobe& widened, int number, int moments_width)
+namespace {
+
+/// cos, sin of the shift between the columns of two grids, for each order; times the B-spline's transform
+/// along the row and the 6 of to_spline_columns.
+std::vector<float> turns(int last, int grid_width, int moments_width) {
+  std::vector<float> turn;
+  for (int m = 0; m <= last; ++m) {
+    const double shift = kPi * m * (1.0 / grid_width - 1.0 / moments_width);
+    const double spline = 6 * 3 / (2 + std::cos(2 * kPi * m / grid_width));
+    turn.push_back(static_cast<float>(spline * std::cos(shift)));
+    turn.push_back(static_cast<float>(spline * std::sin(shift)));
+  }
+  return turn;
+}
+
+/// Factors of the orders of rows of boxes, or 1.
+std::vector<float> order_factors(const MomentPlan& moments, int last) {
+  std::vector<float> factors;
+  for (int m = 0; m <= last; ++m) {
+    const double x = kPi * m / moments.width;
+    const bool box = moments.way == MomentPlan::Way::spread_boxes && m > 0;
+    factors.push_back(static_cast<float>(box ? std::sin(x) / x : 1.0));
+  }
+  return factors;
+}
+
+/// Lobes with more degrees than this are split into near and far.
+constexpr int kMostDegree = 480;
+
+/// Degree of the far part's harmonics.
+constexpr int kFarDegree = 300;
+
+/// Rows that a near part is done on. They resolve what is left of it at the scale of the texel.
+int near_rows(const sphere::AnyParameterization& source, double texel) {
+  const double rows = (source.spec() == "latlong" ? 2.4 : 2.4) * kPi / texel;
+  return std::max(32, static_cast<int>(std::ceil(rows / 16)) * 16);
+}
+
+}  // namespace
+
+HarmonicLevel::HarmonicLevel(const WidenedLobe& widened, const std::vector<double>& coefficients, int number,
+                             int moments_width)
     : index(number),
-      degree(static_cast<int>(widened.zonal.size()) - 1),
+      degree(static_cast<int>(coefficients.size()) - 1),
       grid{fft_length(static_cast<int>(2.2 * degree) + 8), 0},
       fft(grid.width),
       latitudes(grid.width / 2, degree),
-      zonal(widened.zonal.begin(), widened.zonal.end()),
+      zonal(coefficients.begin(), coefficients.end()),
+      turn(turns(degree, grid.width, moments_width)),
       lobe(widened.lobe),
       scale(1 / widened.lobe.integral()) {
   if (widened.sigma > 0) sampled.emplace_back(lobe);
   grid.height = grid.width / 2;
-  for (int m = 0; m <= degree; ++m) {
-    const double shift = kPi * m * (1.0 / grid.width - 1.0 / moments_width);
-    // The B-spline's transform along the row, and the 6 of to_spline_columns.
-    const double spline = 6 * 3 / (2 + std::cos(2 * kPi * m / grid.width));
-    turn.push_back(static_cast<float>(spline * std::cos(shift)));
-    turn.push_back(static_cast<float>(spline * std::sin(shift)));
-  }
 }
+
+NearLevel::NearLevel(const WidenedLobe& widened, std::size_t number, int rows, int degree, double tolerance,
+                     int moments_width)
+    : harmonic(number),
+      field(widened.lobe, widened.zonal, rows, degree, tolerance),
+      grid{fft_length(std::max(2 * rows, 2 * field.last + 4)), rows},
+      fft(grid.width),
+      turn(turns(field.last, grid.width, moments_width)) {}
+
+NearGroup::NearGroup(const PrefilterShape& source, int rows, int last_order)
+    : moments(MomentPlan::with_rows(source.parameterization, source.size, rows)),
+      fft(moments.width),
+      factors(order_factors(moments, last_order)) {}
 
 PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyParameterization& target,
                              std::vector<PrefilterLevel> levels, const PrefilterOptions& options) {
   check(source, levels, options);
   auto tables = std::make_shared<Tables>(Tables{source, target, std::move(levels), options});
-  // How fine each lobe is decides on the grid.
+  // How fine each lobe is decides on the method.
   const double source_texel = mean_texel(source.parameterization, source.size);
   std::vector<std::optional<WidenedLobe>> lobes(tables->levels.size());
   for (std::size_t i = 0; i < lobes.size(); ++i) {
@@ -92,7 +140,8 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
     if (level.lobe.mirror()) continue;
     lobes[i] =
         widen(level.lobe, std::max(source_texel, mean_texel(target, level.size)), options.tolerance / 5);
-    tables->degree = std::max(tables->degree, static_cast<int>(lobes[i]->zonal.size()) - 1);
+    const int degree = static_cast<int>(lobes[i]->zonal.size()) - 1;
+    tables->degree = std::max(tables->degree, degree > kMostDegree ? kFarDegree : degree);
   }
   if (tables->degree > 0) tables->moments.emplace_back(source.parameterization, source.size, tables->degree);
   for (std::size_t i = 0; i < lobes.size(); ++i) {
@@ -108,21 +157,32 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
       }
       continue;
     }
-    tables->harmonic.emplace_back(*lobes[i], static_cast<int>(i), tables->moments[0].width);
-    const HarmonicLevel& level = tables->harmonic.back();
-    tables->methods.push_back(
-        {"harmonics", level.degree, level.grid, lobes[i]->lobe, lobes[i]->sigma, false});
+    const WidenedLobe& lobe = *lobes[i];
+    const int degree = static_cast<int>(lobe.zonal.size()) - 1, width = tables->moments[0].width;
+    if (degree <= kMostDegree) {
+      tables->harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(i), width);
+      tables->methods.push_back(
+          {"harmonics", degree, tables->harmonic.back().grid, lobe.lobe, lobe.sigma, false});
+      continue;
+    }
+    const int rows = near_rows(source.parameterization,
+                               std::max(source_texel, mean_texel(target, tables->levels[i].size)));
+    auto group = std::find_if(tables->near.begin(), tables->near.end(),
+                              [&](const NearGroup& each) { return each.moments.height == rows; });
+    if (group == tables->near.end()) {
+      group = tables->near.emplace(tables->near.end(), source, rows, 4 * rows);
+    }
+    NearLevel& near = group->levels.emplace_back(lobe, tables->harmonic.size(), rows, kFarDegree,
+                                                 options.tolerance / 5, group->moments.width);
+    tables->harmonic.emplace_back(lobe, near.field.far, static_cast<int>(i), width);
+    tables->methods.push_back({"near and far", kFarDegree, near.grid, lobe.lobe, lobe.sigma, false});
   }
   if (!tables->harmonic.empty()) {
     for (int m = 0; m <= tables->degree; ++m) tables->recurrences.emplace_back(m, tables->degree);
     const MomentPlan& moments = tables->moments[0];
     tables->moments_fft.emplace_back(moments.width);
     tables->moments_latitudes.emplace_back(moments.height, tables->degree);
-    for (int m = 0; m <= tables->degree; ++m) {
-      const double x = kPi * m / moments.width;
-      const bool box = moments.way == MomentPlan::Way::spread_boxes && m > 0;
-      tables->order_factors.push_back(static_cast<float>(box ? std::sin(x) / x : 1.0));
-    }
+    tables->order_factors = order_factors(moments, tables->degree);
   }
   tables_ = std::move(tables);
 }

@@ -163,12 +163,20 @@ double furnace_of_part(const Map& level, const Compared& compared, const std::ve
 /// Holds one level after another to references; tells the monitor how much of all is done.
 class Verifier {
  public:
-  Verifier(const Map& source, std::span<const Map> levels, std::span<const lobe::AnyLobe> lobes,
+  Verifier(const Map& source, std::span<const Map> maps, std::span<const PrefilterLevel> levels,
            const VerifyOptions& options)
-      : source_(source), levels_(levels), lobes_(lobes), options_(options), reference_(source) {
+      : source_(source),
+        levels_(maps),
+        options_(options),
+        furnace_plan_({source.parameterization, {source.width(), source.height()}, 1},
+                      maps.front().parameterization, {levels.begin(), levels.end()}, options.prefilter),
+        reference_(source) {
     const std::vector<Vec3d> lights = brightest_lights(source, kLights);
     for (std::size_t i = 0; i < levels.size(); ++i) {
-      compared_.push_back(lobes[i].mirror() ? Compared{} : compared_texels(levels[i], lights, options));
+      const bool mirror = levels[i].lobe.mirror(), integral = options.prefilter.scale == LobeScale::integral;
+      lobes_.push_back(furnace_plan_.methods()[i].lobe);
+      one_.push_back(integral && !mirror ? levels[i].lobe.integral() : 1);
+      compared_.push_back(mirror ? Compared{} : compared_texels(maps[i], lights, options));
       total_ += compared_.back().texels.size();
     }
   }
@@ -181,7 +189,7 @@ class Verifier {
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       if (lobes_[i].mirror()) continue;
       const std::vector<double> wanted = evaluate(reference_, i, source_.channels());
-      results[i].reference = errors_of(levels_[i], compared_[i], wanted, kSmall * mean * one(i));
+      results[i].reference = errors_of(levels_[i], compared_[i], wanted, kSmall * mean * one_[i]);
     }
   }
 
@@ -200,34 +208,21 @@ class Verifier {
 
   void heat(std::vector<LevelVerification>& results) {
     const Map furnace = furnace_source(source_);
-    std::vector<PrefilterLevel> made;
-    for (std::size_t i = 0; i < levels_.size(); ++i) {
-      made.push_back({{levels_[i].width(), levels_[i].height()}, lobes_[i]});
-    }
-    const PrefilterPlan plan(shape_of(furnace), levels_.front().parameterization, std::move(made),
-                             options_.prefilter);
-    const std::vector<Map> hot = plan.run(furnace, {nullptr, options_.monitor.cancelled});
+    const std::vector<Map> hot = furnace_plan_.run(furnace, {nullptr, options_.monitor.cancelled});
     if (source_.parameterization.whole_world()) {
       for (std::size_t i = 0; i < hot.size(); ++i) {
-        results[i].furnace = furnace_of_whole_world(hot[i], one(i));
+        results[i].furnace = furnace_of_whole_world(hot[i], one_[i]);
       }
       return;
     }
     const PrefilterReference reference(furnace);
     for (std::size_t i = 0; i < hot.size(); ++i) {
       if (lobes_[i].mirror()) continue;
-      results[i].furnace = furnace_of_part(hot[i], compared_[i], evaluate(reference, i, 1), one(i));
+      results[i].furnace = furnace_of_part(hot[i], compared_[i], evaluate(reference, i, 1), one_[i]);
     }
   }
 
  private:
-  /// What a radiance of 1 everywhere becomes.
-  double one(std::size_t level) const {
-    return options_.prefilter.scale == LobeScale::integral && !lobes_[level].mirror()
-               ? lobes_[level].integral()
-               : 1;
-  }
-
   /// The reference at the texels of a level, in the level's scale.
   std::vector<double> evaluate(const PrefilterReference& reference, std::size_t level, int channels) {
     const Compared& compared = compared_[level];
@@ -243,14 +238,16 @@ class Verifier {
     }
     reference.evaluate(lobes_[level], compared.directions, wanted, monitor);
     done_ += compared.texels.size();
-    for (double& value : wanted) value *= one(level);
+    for (double& value : wanted) value *= one_[level];
     return wanted;
   }
 
   const Map& source_;
   std::span<const Map> levels_;
-  std::span<const lobe::AnyLobe> lobes_;
   const VerifyOptions& options_;
+  PrefilterPlan furnace_plan_;
+  std::vector<lobe::AnyLobe> lobes_;  ///< that the levels are filtered with
+  std::vector<double> one_;           ///< what a radiance of 1 everywhere becomes
   PrefilterReference reference_;
   std::vector<Compared> compared_;
   std::size_t total_ = 0, done_ = 0;
@@ -266,14 +263,14 @@ void check_verifiable(const PrefilterShape& source) {
               std::to_string(kMostVerifiedTexels) + " that the reference has memory for");
 }
 
-std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> levels,
-                                                std::span<const lobe::AnyLobe> lobes,
+std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
+                                                std::span<const PrefilterLevel> levels,
                                                 const VerifyOptions& options) {
-  assert(levels.size() == lobes.size());
+  assert(maps.size() == levels.size());
   check_verifiable(shape_of(source));
-  std::vector<LevelVerification> results(levels.size());
-  if (levels.empty()) return results;
-  Verifier verifier(source, levels, lobes, options);
+  std::vector<LevelVerification> results(maps.size());
+  if (maps.empty()) return results;
+  Verifier verifier(source, maps, levels, options);
   verifier.integrate(results);
   verifier.compare(results);
   verifier.heat(results);

@@ -52,12 +52,12 @@ struct LevelVerification {
 /// Sources with more texels are refused: the reference would need over 13 GB.
 inline constexpr std::int64_t kMostVerifiedTexels = std::int64_t{1} << 26;
 
-/// Holds `levels` (as PrefilterPlan::run made them of `source`, one for each of `lobes`) to the definition.
-/// The same numbers whatever the number of threads, and for the same seed. Takes some 3 ms for every texel
-/// compared and million texels of source, and core. Throws Error: a source of over kMostVerifiedTexels, and
-/// as PrefilterPlan does; Cancelled.
-std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> levels,
-                                                std::span<const lobe::AnyLobe> lobes,
+/// Holds maps, as PrefilterPlan::run made them of `source`, one for each of `levels`, to the definition:
+/// brute force with PrefilterMethod::lobe. The same numbers whatever the number of threads, and for the same
+/// seed. Takes some 3 ms for every texel compared and half a million texels of source, and core. Throws
+/// Error: a source of over kMostVerifiedTexels, and as PrefilterPlan does; Cancelled.
+std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
+                                                std::span<const PrefilterLevel> levels,
                                                 const VerifyOptions& options = {});
 
 /// Throws as verify_prefilter does for a source of that size.

@@ -17,7 +17,7 @@
 ///   - A narrower one: at the source's own texels, weighted by solid angle. These texels are also what the
 ///     light comes from. Σ_i Ω_i ∫_texel w(r_i·l) dω is the texel's own solid angle for a lobe far narrower
 ///     than a texel, and on an even lattice for every lobe, as the texels tile it. What is left comes of the
-///     texels' uneven sizes, and falls with their square: 5e-4 for texels of 7°, 1e-6 for 0.35°.
+///     texels' uneven sizes, and falls with their square: 2e-3 for texels of 10°, 3e-6 for 0.35°.
 /// The second needs a source of the whole sphere, for light spills over the edge of one that shows a part.
 namespace welkin::prefilter {
 

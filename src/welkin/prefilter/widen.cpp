@@ -13,7 +13,7 @@ namespace {
 /// −ln of the coefficient that a lobe may have at most at the degree of the texels.
 constexpr double kDecay = 1.25;
 
-constexpr int kMostDegree = 8192;
+constexpr int kMostDegree = 32768;
 
 /// Σ (2l + 1) λ_l P_l(1 − s) / 4π.
 double series(const std::vector<double>& zonal, double s) {
@@ -59,16 +59,35 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   }
   const int degree = degree_of(zonal, 1e-9);
   zonal.resize(static_cast<std::size_t>(degree) + 1);
-  // The lobe's values, from its axis outward, dense where it is steep.
+  // The lobe's values, from its axis outward, dense where it is steep. Far out, where the series would be all
+  // rounding errors, by the Gaussian's first moment: w + σ²/2 ∇²w.
   std::vector<double> degrees, values;
-  constexpr int kPoints = 3000;
-  const double sigma = std::sqrt(square), core = std::max(sigma, lobe.width());
+  constexpr int kPoints = 1500;
+  const double sigma = std::sqrt(square), core = std::max(sigma, lobe.width()), scale = 1 / lobe.integral();
+  const auto weight = [&](double angle) {
+    const double sine = std::sin(angle / 2);
+    return scale * lobe.weight(2 * sine * sine);
+  };
   for (int i = 0; i <= kPoints; ++i) {
     const double part = static_cast<double>(i) / kPoints;
     const double angle = std::min(kPi, core * std::sinh(part * std::asinh(kPi / core)));
     const double sine = std::sin(angle / 2);
+    double value = 0;
+    if (angle < 12 * core) {
+      value = series(zonal, 2 * sine * sine);
+    } else {
+      const double step = std::min(angle, kPi - angle) / 64;
+      const double before = weight(angle - step), at = weight(angle), after = weight(angle + step);
+      value = at;
+      // Across the horizon's kink the difference means nothing.
+      if (std::fabs(angle - kPi / 2) > 2 * step && step > 0) {
+        value +=
+            square / 2 *
+            ((after - 2 * at + before) / (step * step) + (after - before) / (2 * step) / std::tan(angle));
+      }
+    }
     degrees.push_back(angle * 180 / kPi);
-    values.push_back(std::max(0.0, series(zonal, 2 * sine * sine)));
+    values.push_back(std::max(0.0, value));
   }
   degrees.back() = 180;
   zonal.resize(static_cast<std::size_t>(degree_of(zonal, tolerance)) + 1);

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "command.h"
+
+namespace welkin::cli {
+
+/// What becomes of NaN and infinite values.
+enum class Faults { refused, mended };
+
+/// A map to be filtered, without alpha unless `flags` name its channels. Says on stderr what is odd about it:
+/// values that were mended, negative ones, places it doesn't show. Throws Error for values that
+/// can't be filtered.
+Map read_bake_source(const std::string& in, const ReadFlags& flags, Faults faults);
+
+}  // namespace welkin::cli

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+
+#include "welkin/map/convention.h"
+#include "welkin/prefilter/prefilter_cases.h"
+
+/// What any convolution keeps: constants, energy, sign, sums, rotations.
+namespace welkin {
+namespace {
+
+using namespace prefilter_cases;
+
+std::vector<PrefilterLevel> levels_of(ChartSize size) {
+  std::vector<PrefilterLevel> levels;
+  for (const AnyLobe& lobe : lobes()) levels.push_back({size, lobe});
+  levels.push_back({size, AnyLobe::make("ggx,roughness=0")});
+  return levels;
+}
+
+std::vector<Map> run(const Map& source, const std::string& target, ChartSize size,
+                     const PrefilterOptions& options = {}) {
+  return prefilter_map(source, AnyParameterization::make(target), levels_of(size), options);
+}
+
+struct Shape {
+  std::string parameterization;
+  int width, height;
+};
+
+/// Every registered one that shows the whole world, and odd sizes.
+std::vector<Shape> whole_worlds() {
+  std::vector<Shape> list{{"latlong", 64, 32}, {"latlong", 63, 31},    {"latlong", 12, 50},
+                          {"latlong", 128, 8}, {"latlong", 4, 2},      {"latlong", 2, 1},
+                          {"latlong", 1, 1},   {"latlong", 3, 1},      {"cube", 1, 1},
+                          {"cube", 17, 17},    {"octahedral", 32, 32}, {"octahedral", 33, 33}};
+  for (const std::string& name : sphere::parameterization_names()) {
+    const Map map = cases::make_map(name, 20);
+    if (map.parameterization.whole_world()) list.push_back({name, map.width(), map.height()});
+  }
+  return list;
+}
+
+/// The contract of the engines: 1e-5.
+TEST(PrefilterLaws, AConstantMapStaysConstant) {
+  for (const Shape& shape : whole_worlds()) {
+    const Map source = filled(shape.parameterization, shape.width, shape.height, 3.0f);
+    for (const char* target : {"cube", "latlong"}) {
+      const std::vector<Map> results = run(source, target, {9, 9});
+      std::size_t i = 0;
+      for (const Map& level : results) {
+        double worst = 0;
+        for_each_value(level, [&](double value) { worst = std::max(worst, std::fabs(value / 3 - 1)); });
+        EXPECT_LT(worst, 1e-5) << shape.parameterization << ' ' << shape.width << ' '
+                               << levels_of({9, 9})[i].lobe.spec();
+        ++i;
+      }
+    }
+  }
+}
+
+/// ∫ of a level that is fine beside the lobe, by its texels, is the source's: 1e-4.
+TEST(PrefilterLaws, EnergyIsKept) {
+  for (const Shape& shape : {Shape{"latlong", 64, 32},
+                             {"latlong", 31, 21},
+                             {"cube", 16, 16},
+                             {"octahedral", 32, 32},
+                             {"octahedral", 31, 31},
+                             {"paraboloid", 24, 24},
+                             {"fisheye-equidistant", 32, 32},
+                             {"mirror-ball", 32, 32}}) {
+    const Map source = landscape(shape.parameterization, shape.width, shape.height);
+    const PrefilterReference reference(source);
+    const std::vector<PrefilterLevel> levels = levels_of({256, 128});
+    const std::vector<Map> results = run(source, "latlong", {256, 128});
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (levels[i].lobe.mirror()) continue;
+      double sum = 0;
+      for (int y = 0; y < 128; ++y) {
+        const double ring = 2 * kPi / 256 * (std::cos(y * kPi / 128) - std::cos((y + 1) * kPi / 128));
+        for (int x = 0; x < 256; ++x) sum += ring * static_cast<double>(*results[i].level.chart(0).at(x, y));
+      }
+      EXPECT_NEAR(sum / reference.integral()[0], 1, 1e-4)
+          << shape.parameterization << ' ' << levels[i].lobe.spec();
+    }
+  }
+}
+
+TEST(PrefilterLaws, PositiveMapsStayPositiveAndBlackOnesBlack) {
+  for (const Shape& shape : {Shape{"latlong", 64, 32}, {"cube", 16, 16}, {"fisheye-equidistant", 32, 32}}) {
+    const Map black = filled(shape.parameterization, shape.width, shape.height, 0, 3);
+    for (const Map& level : run(black, "cube", {8, 8}))
+      for_each_value(level, [](double value) { EXPECT_EQ(value, 0); });
+    for (const float sun : {1e5f, 1e30f}) {
+      for (const int x : {0, 5}) {
+        Map map = filled(shape.parameterization, shape.width, shape.height, 1e-3f);
+        *map.level.chart(0).at(map.width() / 2 + x, map.height() / 2) = sun;
+        fill_borders(map);
+        for (const Map& level : run(map, "octahedral", {16, 16}))
+          for_each_value(level, [&](double value) { EXPECT_TRUE(value >= 0 && value <= sun) << value; });
+      }
+    }
+  }
+}
+
+/// The largest difference of two levels, over the largest value.
+double difference(const Map& a, const Map& b, double factor = 1) {
+  double most = 0, worst = 0;
+  cases::for_each_place(a, [&](int chart, int x, int y) {
+    for (int c = 0; c < a.channels(); ++c) {
+      const double p = static_cast<double>(a.level.chart(chart).at(x, y)[c]);
+      const double q = factor * static_cast<double>(b.level.chart(chart).at(x, y)[c]);
+      most = std::max(most, std::fabs(p));
+      worst = std::fabs(p - q) <= worst ? worst : std::fabs(p - q);
+    }
+  });
+  return worst / most;
+}
+
+template <class Body>
+void change(Map& map, const Body& body) {
+  cases::for_each_place(map, [&](int chart, int x, int y) {
+    for (int c = 0; c < map.channels(); ++c) {
+      float& value = map.level.chart(chart).at(x, y)[c];
+      value = body(value);
+    }
+  });
+  fill_borders(map);
+}
+
+/// Signs pass through, exactly but for a mirror's, whose kernel is held on both sides: rounding.
+TEST(PrefilterLaws, NegativeRadianceIsConvolvedToo) {
+  for (const Shape& shape : {Shape{"latlong", 64, 32}, {"cube", 16, 16}}) {
+    Map source = landscape(shape.parameterization, shape.width, shape.height);
+    const std::vector<Map> positive = run(source, "cube", {8, 8});
+    change(source, [](float value) { return -value; });
+    const std::vector<Map> negative = run(source, "cube", {8, 8});
+    for (std::size_t i = 0; i < positive.size(); ++i)
+      EXPECT_LT(difference(positive[i], negative[i], -1), 1e-6) << levels_of({8, 8})[i].lobe.spec();
+  }
+}
+
+/// A map of both signs against brute force.
+TEST(PrefilterLaws, MixedSignsAreConvolvedToo) {
+  Map source = landscape("latlong", 64, 32);
+  change(source, [](float value) { return value - 1; });
+  const PrefilterReference reference(source);
+  for (const char* lobe : {"ggx,roughness=0.5", "phong,exponent=20"}) {
+    const Map level = prefiltered(source, "cube", {8, 8}, lobe);
+    EXPECT_LT(errors_of(level, reference, AnyLobe::make(lobe), 5).relative_rmse, 2e-3) << lobe;
+  }
+}
+
+/// A power of two changes exponents alone, so long as nothing overflows; and so does the choice of bright
+/// points not depend on the exposure.
+TEST(PrefilterLaws, ExposureIsAFactor) {
+  for (const Shape& shape : {Shape{"latlong", 64, 32}, {"cube", 16, 16}}) {
+    Map source = landscape(shape.parameterization, shape.width, shape.height);
+    const std::vector<Map> plain = run(source, "cube", {8, 8});
+    for (const int stops : {-60, 60}) {
+      Map exposed = landscape(shape.parameterization, shape.width, shape.height);
+      change(exposed, [&](float value) { return std::ldexp(value, stops); });
+      const std::vector<Map> results = run(exposed, "cube", {8, 8});
+      for (std::size_t i = 0; i < plain.size(); ++i)
+        EXPECT_LT(difference(plain[i], results[i], std::ldexp(1, -stops)), 1e-6)
+            << stops << ' ' << levels_of({8, 8})[i].lobe.spec();
+    }
+  }
+}
+
+/// The levels of a sum of two maps are the sums of their levels, as far as the tolerance goes: their bright
+/// points differ.
+TEST(PrefilterLaws, SumsOfMapsAreSumsOfLevels) {
+  Map a = landscape("latlong", 64, 32), b = landscape("latlong", 64, 32, 1, 9),
+      sum = landscape("latlong", 64, 32);
+  for (int i = 0; i < 64 * 32; ++i)
+    *sum.level.chart(0).at(i % 64, i / 64) += *b.level.chart(0).at(i % 64, i / 64);
+  fill_borders(sum);
+  const std::vector<Map> of_a = run(a, "cube", {8, 8}), of_b = run(b, "cube", {8, 8}),
+                         of_sum = run(sum, "cube", {8, 8});
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    if (levels_of({8, 8})[i].lobe.mirror()) continue;
+    double squares = 0, errors = 0;
+    cases::for_each_place(of_a[i], [&](int chart, int x, int y) {
+      const auto at = [&](const Map& map) { return static_cast<double>(*map.level.chart(chart).at(x, y)); };
+      squares += at(of_sum[i]) * at(of_sum[i]);
+      errors += std::pow(at(of_sum[i]) - at(of_a[i]) - at(of_b[i]), 2);
+    });
+    EXPECT_LT(std::sqrt(errors / squares), 1e-3) << levels_of({8, 8})[i].lobe.spec();
+  }
+}
+
+/// The same picture in another program's world: the levels in that world are the same too, and those in ours
+/// are turned.
+TEST(PrefilterLaws, OrientationsOfSourceAndResultCancel) {
+  const Map plain = landscape("cube", 12, 12);
+  const std::vector<Map> expected = run(plain, "cube", {8, 8});
+  for (const Convention& convention : conventions()) {
+    Map turned = landscape("cube", 12, 12);
+    turned.orientation = convention.lookup;
+    PrefilterOptions options;
+    options.orientation = convention.lookup;
+    const std::vector<Map> results = run(turned, "cube", {8, 8}, options);
+    for (std::size_t i = 0; i < results.size(); ++i)
+      EXPECT_LT(difference(expected[i], results[i]), 1e-6) << convention.name;
+    // In our world: each texel's direction, in the source's frame, against brute force.
+    const Map native = prefiltered(turned, "latlong", {16, 8}, "ggx,roughness=0.5");
+    EXPECT_LT(
+        errors_of(native, PrefilterReference(turned), AnyLobe::make("ggx,roughness=0.5"), 3).relative_rmse,
+        1e-3)
+        << convention.name;
+  }
+}
+
+/// A lat-long picture shifted by whole columns, to a level shifted by as many of its own: rounding.
+TEST(PrefilterLaws, LongitudeIsNothingSpecial) {
+  for (const int width : {64, 48}) {
+    const Map source = landscape("latlong", width, 32);
+    Map shifted = landscape("latlong", width, 32);
+    const int by = width / 8;
+    for (int i = 0; i < width * 32; ++i)
+      *shifted.level.chart(0).at((i % width + by) % width, i / width) =
+          *source.level.chart(0).at(i % width, i / width);
+    fill_borders(shifted);
+    const std::vector<Map> a = run(source, "latlong", {16, 8}), b = run(shifted, "latlong", {16, 8});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      Map back(a[i].parameterization, 16, 8, 1);
+      for (int k = 0; k < 128; ++k)
+        *back.level.chart(0).at(k % 16, k / 16) = *b[i].level.chart(0).at((k % 16 + 2) % 16, k / 16);
+      EXPECT_LT(difference(a[i], back), 3e-6) << width << ' ' << levels_of({16, 8})[i].lobe.spec();
+    }
+  }
+}
+
+/// ∫ w L dω is the average times ∫ w dω.
+TEST(PrefilterLaws, IntegralsAreAveragesTimesTheLobesIntegral) {
+  const Map source = landscape("latlong", 32, 16);
+  PrefilterOptions options;
+  options.scale = LobeScale::integral;
+  const std::vector<Map> averages = run(source, "cube", {4, 4}),
+                         integrals = run(source, "cube", {4, 4}, options);
+  for (std::size_t i = 0; i < averages.size(); ++i) {
+    const AnyLobe& lobe = levels_of({4, 4})[i].lobe;
+    EXPECT_LT(difference(integrals[i], averages[i], lobe.mirror() ? 1 : lobe.integral()), 1e-6)
+        << lobe.spec();
+  }
+}
+
+}  // namespace
+}  // namespace welkin
