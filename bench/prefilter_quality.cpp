@@ -76,12 +76,12 @@ int main() {
       "each "
       "roughness, against brute force over all texels in float64. The RMSE is over 300 texels by chance (all "
       "of "
-      "small levels); the maximum also over 100 of the brightest, and those towards the brightest lights; "
-      "both "
-      "over the three channels together. *Energy*: how far a filtered level's integral is from the source's, "
-      "relatively; *of level 0*: the same of the resampled one, summed over its texels; *furnace*: how far a "
-      "map "
-      "that is 1 everywhere is from 1. Each is the worst level's.");
+      "small levels), the maximum also over the 100 brightest; both over the three channels together. "
+      "*Energy*: how far a filtered level's integral is from the source's, relatively; *of level 0*: the "
+      "same "
+      "of the resampled one, summed over its texels; *furnace*: how far a map that is 1 everywhere is from "
+      "1. "
+      "Each is the worst level's.");
   {
     const HighDynamicRange real = high_dynamic_range();
     const Table table = start_table();
@@ -89,7 +89,7 @@ int main() {
     for (const NamedMap& each : built_in_lighting()) map_row(each.name, each.map, {}, table);
   }
   heading("Pre-filtering: errors on hostile maps");
-  paragraph("The same; the first sun is on a background of a millionth of it.");
+  paragraph("The same, on suns that are a million times as bright as the rest, on a lamp, and on many.");
   const Table table = start_table();
   for (const NamedMap& each : hostile_lighting()) map_row(each.name, each.map, {0, 1e-2}, table);
 }

@@ -110,7 +110,7 @@ void more_lobes(const Map& source, int threads) {
       "The same chain, and from the same map Lambert's lobe and Phong's of exponents 4, 8, 16, 32, 64 and "
       "128 "
       "into cubes of 6×64. Errors, relative RMSE / maximum, are the largest of the seven, measured as in the "
-      "section on errors.");
+      "next section.");
   const Table table({"threads", "chain, CPU ms", "with seven more", "more, CPU ms", "wall ms, all",
                      "errors, %", "target", "met"});
   const std::vector<Map> results = prefilter_map(source, cube(), more);

@@ -19,6 +19,16 @@ struct Monitor {
   std::function<bool()> cancelled;
 };
 
+/// For a piece of the work: its 0…1 is from…to of the whole. Refers to `whole`, which must outlive it.
+inline Monitor part_of(const Monitor& whole, double from, double to) {
+  Monitor part;
+  part.cancelled = whole.cancelled;
+  if (whole.progress) {
+    part.progress = [&whole, from, to](double fraction) { whole.progress(from + fraction * (to - from)); };
+  }
+  return part;
+}
+
 /// body(i) for i in 0…count−1 on TBB's workers; `monitor` is told and asked after each.
 template <class Body>
 void parallel_for(int count, const Body& body, const Monitor& monitor = {}) {

@@ -37,11 +37,11 @@ class Harmonics {
         grids_(grids) {}
 
   void run(const Monitor& monitor) {
-    transform_rows(monitor);
-    analyse(monitor);
+    transform_rows(part_of(monitor, 0, 0.1));
+    analyse(part_of(monitor, 0.1, 0.4));
     if (!t_.near.empty()) add_bright();
-    synthesise(monitor);
-    transform_back(monitor);
+    synthesise(part_of(monitor, 0.4, 0.85));
+    transform_back(part_of(monitor, 0.85, 1));
   }
 
  private:
@@ -241,21 +241,24 @@ bool has_negative(const Map& map) {
 
 std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector<Map>& results,
                                  const Monitor& monitor) {
-  Moments moments = moments_of(source, t.moments[0], monitor);
-  const BrightPoints bright = take_bright_points(moments, {}, monitor);
+  Moments moments = moments_of(source, t.moments[0], part_of(monitor, 0, 0.2));
+  const BrightPoints bright = take_bright_points(moments, {}, part_of(monitor, 0.2, 0.22));
 
   std::vector<Level> grids;
   for (const HarmonicLevel& level : t.harmonic) {
     grids.emplace_back(1, level.grid.width, level.grid.height, source.channels());
   }
   for (int first = 0; first < source.channels(); first += 3) {
-    Harmonics(t, moments, bright, first, std::min(3, source.channels() - first), grids).run(monitor);
+    const double share = 0.28 / source.channels(), from = 0.22 + first * share;
+    const int channels = std::min(3, source.channels() - first);
+    Harmonics(t, moments, bright, first, channels, grids).run(part_of(monitor, from, from + channels * share));
   }
 
   std::vector<std::vector<Level>> near_grids;
   std::vector<const Level*> near(t.harmonic.size(), nullptr);
   for (const NearGroup& group : t.near) {
-    near_grids.push_back(run_near(group, source, monitor));
+    const double share = 0.2 / static_cast<double>(t.near.size()), from = 0.5 + share * static_cast<double>(near_grids.size());
+    near_grids.push_back(run_near(group, source, part_of(monitor, from, from + share)));
     for (std::size_t i = 0; i < group.levels.size(); ++i)
       near[group.levels[i].harmonic] = &near_grids.back()[i];
   }
@@ -276,7 +279,7 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
         const Strip& strip = strips[static_cast<std::size_t>(k)];
         to_spline_columns(grids[strip.level], strip.first, strip.last);
       },
-      monitor);
+      part_of(monitor, 0.7, 0.72));
   for (Level& grid : grids) fill_latlong_border(grid);
 
   // Sums of light that is never negative are held there. Whether it is, is looked up when it first matters.
@@ -310,7 +313,7 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
                     hold_positive, result)
             .rows(band.chart, band.row, band.rows);
       },
-      monitor);
+      part_of(monitor, 0.72, 1));
   return std::move(moments.reduced);
 }
 

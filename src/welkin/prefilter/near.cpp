@@ -86,7 +86,9 @@ void convolve(const NearLevel& level, RowOrders& masses, int first, int channels
 }  // namespace
 
 std::vector<Level> run_near(const NearGroup& group, const Map& source, const Monitor& monitor) {
-  const Moments moments = moments_of(source, group.moments, monitor);
+  const Moments moments = moments_of(source, group.moments, part_of(monitor, 0, 0.2));
+  Monitor quiet;
+  quiet.cancelled = monitor.cancelled;
   int last = 0, reach = 0;
   std::vector<Level> grids;
   for (const NearLevel& level : group.levels) {
@@ -96,9 +98,10 @@ std::vector<Level> run_near(const NearGroup& group, const Map& source, const Mon
   }
   for (int first = 0; first < source.channels(); first += 3) {
     const int channels = std::min(3, source.channels() - first);
-    RowOrders masses = mass_orders(group, moments, first, channels, last, reach, monitor);
+    RowOrders masses = mass_orders(group, moments, first, channels, last, reach, quiet);
     for (std::size_t i = 0; i < grids.size(); ++i) {
-      convolve(group.levels[i], masses, first, channels, grids[i], monitor);
+      convolve(group.levels[i], masses, first, channels, grids[i], quiet);
+      if (monitor.progress) monitor.progress(0.2 + 0.8 * static_cast<double>(i + 1) / static_cast<double>(grids.size()));
     }
   }
   constexpr int kColumns = 64;
