@@ -43,8 +43,9 @@ levels_of() {
     function percent(key) { return number(key, 100, value[key] + 0 < 1e-6 ? "< 0.0001" : "%.2g") }
     function print_level() {
       if (!("level" in value)) return
-      printf "%s\t%s×%s\t%s\t%s%s\t%s\t%s\t%s\t%s\n", value["level"], value["width"], value["height"], number("roughness", 1, "%g"),
-        value["method"], "degree" in value ? ", degree " value["degree"] : "", percent("relative_rmse"), percent("max_relative"), number("energy", 1, "%.6f"),
+      printf "%s\t%s×%s\t%s\t%s%s\t", value["level"], value["width"], value["height"], number("roughness", 1, "%g"), value["method"],
+        "degree" in value ? ", degree " value["degree"] : ""
+      printf "%s\t%s\t%s\t%s\n", percent("relative_rmse"), percent("max_relative"), number("energy", 1, "%.6f"),
         number("furnace", 1, value["furnace"] + 0 ? "%.0e" : "%g")
       delete value
     }
@@ -80,7 +81,8 @@ picture() {
 
 # mirror_ball CHAIN LEVEL SIZE EXPOSURE: the ball that reflects a level: each pixel looks it up along the reflected ray.
 mirror_ball() {
-  picture ball "ball that reflects level $2" "${1%.*}-ball-$2.png" "$1" --level "$2" --to sphere --size "$3" --rotate "$turn" --exposure "$4"
+  picture ball "ball that reflects level $2" "${1%.*}-ball-$2.png" \
+    "$1" --level "$2" --to sphere --size "$3" --rotate "$turn" --exposure "$4"
 }
 
 # matt_ball MAP SIZE: the ball whose pixels look the map up along the normal.
@@ -88,10 +90,13 @@ matt_ball() {
   picture ball 'matt ball' "${1%.*}-ball.png" "$1" --to fisheye-orthographic --size "$2" --rotate "$mirrored" --exposure "$exposure"
 }
 
-# cross CHAIN LEVEL TEXELS: a level's cube, texels as they are stored where a face has at most 128.
+# cross CHAIN LEVEL TEXELS: a level's cube, its texels as they are stored where a face has at most 128 across, and distinct
+# on the page where it has at most 32.
 cross() {
-  picture "cross$( (($3 > 32)) || echo ' texels')" "cube of level $2" "${1%.*}-cube-$2.png" "$1" --level "$2" --to cube:hcross --size "$(($3 < 128 ? $3 : 128))" \
-    --exposure "$exposure"
+  local class=cross
+  (($3 > 32)) || class='cross texels'
+  picture "$class" "cube of level $2" "${1%.*}-cube-$2.png" \
+    "$1" --level "$2" --to cube:hcross --size "$(($3 < 128 ? $3 : 128))" --exposure "$exposure"
 }
 
 # ------------------------------------------------------------------------------------------------------------------- work
@@ -128,26 +133,31 @@ chart() {
     function across(seconds,  at) { at = 25 * log(seconds / 0.01) / log(10); return at < 0.5 ? 0.5 : at > 100 ? 100 : at }
     { class[NR] = $1; seconds[NR] = $2; $1 = $2 = ""; label[NR] = substr($0, 3) }
     END {
-      height = NR * 42
-      printf "<svg width=\"100%%\" height=\"%d\" role=\"img\" aria-label=\"Bar chart of the times in the table below\">\n", height + 24
+      row = 42
+      height = NR * row
+      printf "<svg width=\"100%%\" height=\"%d\" role=\"img\" aria-label=\"The times of the table below as bars\">\n", height + 24
       split("10 ms,100 ms,1 s,10 s,100 s", tick, ",")
+      split("start,middle,middle,middle,end", anchor, ",")
       for (i = 0; i < 5; i++) {
         printf "<line x1=\"%d%%\" x2=\"%d%%\" y1=\"0\" y2=\"%d\"/>", 25 * i, 25 * i, height + 4
-        printf "<text class=\"axis\" x=\"%d%%\" y=\"%d\" text-anchor=\"%s\">%s</text>\n", 25 * i, height + 20, i == 0 ? "start" : i == 4 ? "end" : "middle", tick[i + 1]
+        printf "<text class=\"axis\" x=\"%d%%\" y=\"%d\" text-anchor=\"%s\">%s</text>\n", 25 * i, height + 20, anchor[i + 1], tick[i + 1]
       }
       for (i = 1; i <= NR; i++) {
-        y = (i - 1) * 42
-        printf "<text x=\"6\" y=\"%d\">%s</text><rect class=\"%s\" x=\"0\" y=\"%d\" width=\"%.2f%%\" height=\"14\" rx=\"3\"/>\n", y + 14, label[i], class[i], y + 20, across(seconds[i])
+        y = (i - 1) * row
+        printf "<text x=\"6\" y=\"%d\">%s</text>", y + 14, label[i]
+        printf "<rect class=\"%s\" y=\"%d\" width=\"%.2f%%\" height=\"14\" rx=\"3\"/>\n", class[i], y + 20, across(seconds[i])
       }
       print "</svg>"
     }'
 }
 
-# table_rows NAME: rows of what levels_of prints; "diffuse" has one.
+# table_rows REPORT [NAME]: a row a level, which is called NAME, or by its number.
 table_rows() {
-  levels_of "$1" | awk -F '\t' -v only="${2:-}" '{
+  levels_of "$1" | awk -F '\t' -v name="${2:-}" '{
     gsub(/</, "\\&lt;")
-    print "<tr><td>" (only == "" ? "level " $1 : only) "</td><td>" $2 "</td><td>" $3 "</td><td>" $5 "</td><td>" $6 "</td><td>" $7 "</td><td>" $8 "</td><td>" $4 "</td></tr>" }'
+    cell = "</td><td>"
+    print "<tr><td>" (name == "" ? "level " $1 : name) cell $2 cell $3 cell $5 cell $6 cell $7 cell $8 cell $4 "</td></tr>"
+  }'
 }
 
 levels=$(levels_of specular | wc -l)
@@ -184,11 +194,12 @@ HTML
   cat <<'HTML'
 <h2>The chain</h2>
 <p>A cube texture of nine levels for the GGX lobe, from a mirror to roughness 1, each level half as large as the one before. On the
-left the ball that reflects the level, on the right its six faces, texel by texel.</p>
+left the ball that reflects the level, on the right its six faces.</p>
 <div class="cards">
 HTML
-  while IFS=$'\t' read -r level size roughness _ error _; do
-    printf '<div class="card" id="level-%s"><h3>Roughness %s <small>level %s, %s</small></h3><div class="pair">\n' "$level" "$roughness" "$level" "$size"
+  while IFS=$'\t' read -r level size roughness _; do
+    printf '<div class="card" id="level-%s"><h3>Roughness %s <small>level %s, %s</small></h3><div class="pair">\n' \
+      "$level" "$roughness" "$level" "$size"
     mirror_ball specular.ktx2 "$level" 256 "$exposure"
     cross specular.ktx2 "$level" "${size%%×*}"
     printf '</div></div>\n'
@@ -218,7 +229,7 @@ HTML
   cat <<'HTML'
 </table></div>
 <p class="faint"><em>Rel. RMSE</em> is the root mean square error over the root mean square; <em>max</em> the largest error of a texel over
-that texel; <em>energy</em> the level's integral over the source's; <em>furnace</em> how much a constant map changes. Level 0 is the
+the reference there; <em>energy</em> the level's integral over the source's; <em>furnace</em> how much a constant map changes. Level 0 is the
 source resampled, without a lobe.</p>
 <div class="cards">
 HTML
@@ -227,8 +238,9 @@ HTML
     picture wide "the $other as a lat-long" "$other.png" "$other.exr" --size 512 --exposure -1.5
     printf '<div class="trio">\n'
     for level in 0 2 4; do mirror_ball "$other.ktx2" "$level" 192 -1.5; done
-    printf '</div>\n<figcaption><code>welkin synth %s</code>, baked alike, levels 0, 2 and 4. Worst level: rel. RMSE %s %%, max %s %%.</figcaption>\n</figure>\n' \
+    printf '</div>\n<figcaption><code>welkin synth %s</code>, baked alike, levels 0, 2 and 4, darkened by 1.5 stops. Worst level: rel. RMSE %s %%,\nmax %s %%.' \
       "$other" "$(worst "$other" 5)" "$(worst "$other" 6)"
+    printf '</figcaption>\n</figure>\n'
   done
 
   printf '</div>\n\n<h2>How long it took</h2>\n'
@@ -247,29 +259,35 @@ BARS
   cat <<HTML
 <div class="scroll"><table>
 <tr><th>program</th><th>lobe</th><th>levels</th><th>CPU s</th><th>wall s</th><th>rel. RMSE %</th><th>max %</th></tr>
-<tr class="ours"><td>welkin bake, this page</td><td>GGX</td><td>$levels</td><td>$cpu</td><td>$wall</td><td>≤ $(worst specular 5)</td><td>≤ $(worst specular 6)</td></tr>
+<tr class="ours"><td>welkin bake, this page</td><td>GGX</td><td>$levels</td><td>$cpu</td><td>$wall</td>
+  <td>≤ $(worst specular 5)</td><td>≤ $(worst specular 6)</td></tr>
 <tr><td>Filament cmgen</td><td>GGX</td><td>5</td><td>10.2</td><td>5.5</td><td>4.0–6.5</td><td>15–57</td></tr>
 <tr><td>cmft</td><td>Blinn BRDF</td><td>7</td><td>13–15</td><td>7–8</td><td>0.9–5.6</td><td>18–42</td></tr>
 <tr><td>Khronos glTF-IBL-Sampler</td><td>GGX</td><td>9</td><td>23</td><td>13</td><td>1.2–4.7</td><td>13–50</td></tr>
 <tr><td>bimg texturec</td><td>GGX</td><td>9</td><td>38</td><td>38</td><td>34–45</td><td>73–128</td></tr>
 </table></div>
-<p class="faint">The other programs were not run for this page. Welkin's authors measured them once, on an idle machine of two processors and
-with another HDR map of the same size (1024×512 to a cube of 256); their errors are at roughnesses near 1/8, 1/4, 1/2 and 1 against the
-same kind of brute force, cmft's against its own lobe. Filament took 1024 to 8192 samples a texel, Khronos's sampler 1024 on a software
-Vulkan, texturec 512. Errors depend on the map, times on the machine: what compares is the order of magnitude.
-<code>./dev bench</code> measures again, with those of them that are installed.</p>
+<p class="faint">The other programs were not run for this page. We measured them once, on an idle machine with 2 cores, with another HDR map of
+the same size (1024×512 to a cube of 256); their errors are at roughnesses near 1/8, 1/4, 1/2 and 1, against the same kind of brute
+force, cmft's against its own lobe. cmgen took 1024 to 8192 samples a texel, Khronos's sampler 1024 on a software Vulkan, texturec 512.
+Errors depend on the map and times on the machine: only orders of magnitude compare. <code>./dev bench</code> measures anew those that
+are installed.</p>
 
 <h2>The files</h2>
 HTML
-  printf '<p><code>specular.ktx2</code> and <code>diffuse.ktx2</code> lie beside this page. What <code>welkin info --header specular.ktx2</code> reads\nback:</p>\n<pre>%s</pre>\n' \
+  printf '<p><code>specular.ktx2</code> (%s bytes) and <code>diffuse.ktx2</code> (%s bytes) lie beside this page.</p>\n' \
+    "$(wc -c <specular.ktx2)" "$(wc -c <diffuse.ktx2)"
+  printf '<details><summary><code>welkin info --header specular.ktx2</code></summary><pre>%s</pre></details>\n\n' \
     "$(escaped "$(welkin info --header specular.ktx2)")"
 
-  printf '<h2>Other parameterizations</h2>\n<p>A map is a function from direction to radiance; a parameterization says where a direction lies in a picture. Welkin\n'
-  printf 'knows %s and reads, bakes and writes all of them: <code>welkin convert room.exr out.png --to …</code></p>\n<div class="tiles">\n' \
+  printf '<h2>Other parameterizations</h2>\n<p>A map is a function from direction to radiance; a parameterization says where a direction lies\n'
+  printf 'in a picture. Welkin '
+  printf 'knows %s, and reads, bakes and writes them all: <code>welkin convert room.exr out.png --to …</code></p>\n<div class="tiles">\n' \
     "$(welkin list parameterizations | wc -l)"
   for name in cube:3x2 octahedral octahedral-equal-area paraboloid:hstrip angular mercator; do
+    tile=256
+    [[ $name != cube:* ]] || tile=96
     printf '<figure>'
-    picture '' "the room as $name" "room-${name//:/-}.png" room.exr --to "$name" --size "$([[ $name == cube:* ]] && echo 96 || echo 256)" --exposure "$exposure"
+    picture '' "the room as $name" "room-${name//:/-}.png" room.exr --to "$name" --size "$tile" --exposure "$exposure"
     printf '<figcaption><code>%s</code></figcaption></figure>\n' "$name"
   done
   printf '</div>\n<p><small>%s</small></p>\n</html>\n' "$(escaped "$(welkin --version)")"

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "welkin/base/error.h"
+#include "welkin/base/large_memory.h"
 
 namespace welkin {
 namespace {
@@ -34,6 +35,7 @@ Image::Image(int width, int height, int channels) {
   float* base = static_cast<float*>(std::calloc(bytes, 1));
   if (base == nullptr) throw std::bad_alloc();
   values_.reset(base);
+  prefer_large_pages(base, bytes);
   const auto address = reinterpret_cast<std::uintptr_t>(base);
   const std::size_t skip = (kAlignment - address % kAlignment) % kAlignment;
   view_ = {base + skip / sizeof(float), width, height, channels,

@@ -5,6 +5,8 @@
 #include <memory>
 #include <new>
 
+#include "welkin/base/large_memory.h"
+
 namespace welkin::prefilter {
 
 /// `count` floats on a 64-byte boundary, not initialised.
@@ -15,6 +17,7 @@ class Buffer {
     void* memory = std::aligned_alloc(64, (count * sizeof(float) + 127) / 64 * 64);
     if (memory == nullptr) throw std::bad_alloc();
     values_.reset(static_cast<float*>(memory));
+    prefer_large_pages(memory, count * sizeof(float));
   }
 
   float* data() { return values_.get(); }

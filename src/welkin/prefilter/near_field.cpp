@@ -57,21 +57,43 @@ std::vector<double> cosine_sums(const std::vector<double>& place, const std::vec
   return sums;
 }
 
+/// A normalised lobe sampled once, for the many looks at it: linear between values at even steps of c/(c + width) of the
+/// chord c.
+class Samples {
+ public:
+  Samples(const lobe::AnyLobe& lobe, double width) : width_(width), last_(2 / (2 + width)) {
+    const double scale = 1 / lobe.integral();
+    for (int i = 0; i <= kSteps + 1; ++i) {
+      const double part = std::min(last_, last_ * i / kSteps), chord = std::min(2.0, width * part / (1 - part));
+      values_.push_back(scale * lobe.weight(chord * chord / 2));
+    }
+  }
+  double at_chord(double chord) const {
+    const double place = std::min(1.0, chord / (chord + width_) / last_) * kSteps;
+    const std::size_t below = static_cast<std::size_t>(place);
+    return values_[below] + (place - static_cast<double>(below)) * (values_[below + 1] - values_[below]);
+  }
+
+ private:
+  static constexpr int kSteps = 1 << 14;
+  double width_, last_;
+  std::vector<double> values_;
+};
+
 /// The near part as a function of s, normalised with the lobe: linear between values at even steps of the
 /// chord, off by 1e-6 of the largest.
 class Near {
  public:
-  Near(const lobe::AnyLobe& lobe, double sharpness, double exponent, double core)
+  Near(const Samples& lobe, double sharpness, double exponent, double core)
       : sharpness_(sharpness),
         core_(core),
         last_(exponent / sharpness),
         scale_(kSteps / std::sqrt(2 * last_)) {
-    const double scale = 1 / lobe.integral();
     for (int i = 0; i <= kSteps + 1; ++i) {
       const double chord = i / scale_, s = chord * chord / 2;
       // Its end is rounded off: sums over rows don't take to a step.
       const double part = s / last_, rounded = part < 1 ? 1 - std::pow(part, 6) : 0;
-      const double value = window(s) * lobe.weight(s) * scale;
+      const double value = window(s) * lobe.at_chord(chord);
       values_.push_back(value * rounded * rounded);
       // What is cut off there: for a lobe that falls as s⁻², s·w·χ lies beyond.
       if (i == kSteps) beyond_ = 2 * kPi * last_ * value;
@@ -131,7 +153,7 @@ struct Split {
 
 /// The smallest exponent X with which neither cut matters; or the one with the best of cores, where the
 /// lobe's own core isn't of the form that makes the far part smooth.
-Split split_of(const lobe::AnyLobe& lobe, double width, const std::vector<double>& zonal, int degree,
+Split split_of(const Samples& lobe, double width, const std::vector<double>& zonal, int degree,
                double tolerance) {
   const double half = (1 - std::cos(width)) / (std::sqrt(2.0) - 1);
   // Degrees beyond the last come from the near part alone: relative to what the lobe has there.
@@ -163,8 +185,9 @@ NearField::NearField(const lobe::AnyLobe& lobe, const std::vector<double>& zonal
     : rows(row_count) {
   assert(rows % 16 == 0);
   const double core = lobe.width();
-  const Split split = split_of(lobe, core, zonal, degree, tolerance);
-  const Near near(lobe, static_cast<double>(degree) * degree / (2 * split.exponent), split.exponent,
+  const Samples samples(lobe, core);
+  const Split split = split_of(samples, core, zonal, degree, tolerance);
+  const Near near(samples, static_cast<double>(degree) * degree / (2 * split.exponent), split.exponent,
                   split.core);
   far = zonal_of(near, core, degree);
   for (std::size_t l = 0; l < far.size(); ++l) far[l] = zonal[l] - far[l];
@@ -203,10 +226,12 @@ NearField::NearField(const lobe::AnyLobe& lobe, const std::vector<double>& zonal
     for (const auto& line : lines) sum += 2 * std::fabs(line[static_cast<std::size_t>(mu)]);
     return sum;
   };
-  while (last > 8 && everything(last) < tolerance * peak) --last;
+  while (last > 8 && everything(last) < 5 * tolerance * peak) --last;
 
   const int packs = rows / 8, width = 2 * reach + 1, blocks = last / 8 + 4;
-  const auto sine = [&](int row) { return std::sin((row + 0.5) * step); };
+  std::vector<double> sines;
+  for (int row = 0; row < rows; ++row) sines.push_back(std::sin((row + 0.5) * step));
+  const auto sine = [&](int row) { return sines[static_cast<std::size_t>(row)]; };
   last_order.resize(static_cast<std::size_t>(packs));
   polar.assign(static_cast<std::size_t>(packs), -1);
   std::ptrdiff_t polar_size = 0;

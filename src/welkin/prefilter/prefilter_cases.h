@@ -67,7 +67,7 @@ struct Errors {
 };
 
 /// A level against brute force with `lobe` in every `step`-th of its places. Maximum: relative to the
-/// reference.
+/// reference, taken to be a hundredth of its root mean square at least.
 inline Errors errors_of(const Map& level, const PrefilterReference& reference, const AnyLobe& lobe,
                         int step) {
   std::vector<Vec3d> directions;
@@ -87,10 +87,14 @@ inline Errors errors_of(const Map& level, const PrefilterReference& reference, c
     const double error = static_cast<double>(texels[i / channels][i % channels]) - expected[i];
     squares += expected[i] * expected[i];
     error_squares += error * error;
-    const double relative = std::fabs(error) / std::fabs(expected[i]);
-    errors.maximum = relative <= errors.maximum ? errors.maximum : relative;  // NaN is larger
   }
   errors.relative_rmse = std::sqrt(error_squares / squares);
+  const double mean = std::sqrt(squares / static_cast<double>(expected.size()));
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double error = static_cast<double>(texels[i / channels][i % channels]) - expected[i];
+    const double relative = std::fabs(error) / std::max(std::fabs(expected[i]), 0.01 * mean);
+    errors.maximum = relative <= errors.maximum ? errors.maximum : relative;  // NaN is larger
+  }
   return errors;
 }
 

@@ -33,29 +33,26 @@ struct Target {
 
 const Target kTargets[] = {{"cube", 8, 8}, {"latlong", 16, 8}, {"octahedral", 15, 15}, {"paraboloid", 9, 9}};
 
-TEST(Prefilter, Matrix) {
+/// Half the tolerance in the mean square is what the plan aims at; few texels are compared here, so all of it
+/// is allowed. The largest error, where a level is dark beside a lamp, is relative to a hundredth of the
+/// level's mean at least.
+TEST(Prefilter, LevelsAreBruteForcesWithinTheTolerance) {
   int which = 0;
   for (const Source& s : kSources) {
     const Map source = landscape(s.parameterization, s.width, s.height, s.channels);
     const PrefilterReference reference(source);
-    for (int k = 0; k < 4; ++k) {
-      const Target& t = kTargets[k];
-      std::vector<PrefilterLevel> levels;
-      for (const AnyLobe& lobe : lobes()) levels.push_back({{t.width, t.height}, lobe});
-      PrefilterOptions options;
-      if (getenv("TOL")) options.tolerance = atof(getenv("TOL"));
-      const PrefilterPlan plan(shape_of(source), AnyParameterization::make(t.parameterization), levels,
-                               options);
-      const std::vector<Map> results = plan.run(source);
-      for (std::size_t i = 0; i < levels.size(); ++i) {
-        const PrefilterMethod& method = plan.methods()[i];
-        if (method.name != "harmonics") continue;
-        const Errors errors = errors_of(results[i], reference, method.lobe, 7);
-        printf("%s %dx%d -> %s %s deg %d grid %d w %g: rmse %.2g max %.2g%s\n", s.parameterization.c_str(),
-               s.width, s.height, t.parameterization.c_str(), levels[i].lobe.spec().c_str(), method.degree,
-               method.grid.width, method.widened, errors.relative_rmse, errors.maximum,
-               errors.relative_rmse > 1e-3 ? " XX" : "");
-      }
+    const Target& target = kTargets[which++ % 4];
+    std::vector<PrefilterLevel> levels;
+    for (const AnyLobe& lobe : lobes()) levels.push_back({{target.width, target.height}, lobe});
+    const PrefilterPlan plan(shape_of(source), AnyParameterization::make(target.parameterization), levels);
+    const std::vector<Map> results = plan.run(source);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const PrefilterMethod& method = plan.methods()[i];
+      const Errors errors = errors_of(results[i], reference, method.lobe, 19);
+      EXPECT_LT(errors.relative_rmse, 1.5e-3)
+          << s.parameterization << ' ' << s.width << ' ' << levels[i].lobe.spec() << " by " << method.name
+          << ' ' << method.degree;
+      EXPECT_LT(errors.maximum, 2e-2) << s.parameterization << ' ' << s.width << ' ' << levels[i].lobe.spec();
     }
   }
 }

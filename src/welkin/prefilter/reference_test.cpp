@@ -21,8 +21,9 @@ std::vector<double> values(const PrefilterReference& reference, const AnyLobe& l
   return out;
 }
 
-/// ∫ w · 1 = ∫ w, for lobes from wide to far narrower than a texel. Quadrature: 1e-6 as the header says, of
-/// lobes with a kink at the horizon 1e-5, and of a lat-long whose pole a needle points at.
+/// ∫ w · 1 = ∫ w, for lobes from wide to far narrower than a texel, rings too. Quadrature over texels
+/// of 4.5°: 2e-4 where the lobe has a kink at the horizon; 1e-3 of a step, and of a table's kinks, which it
+/// doesn't see.
 TEST(PrefilterReference, AConstantMapStaysConstant) {
   for (const char* shape : {"latlong", "cube", "eac", "octahedral-equal-area", "healpix"}) {
     const Map side = cases::make_map(shape, 20);
@@ -95,14 +96,14 @@ TEST(PrefilterReference, HarmonicsKeepTheirShape) {
       const std::vector<double> got = values(reference, lobe, kAxes);
       for (std::size_t i = 0; i < got.size(); ++i) {
         const Vec3d& d = kAxes[i];
-        EXPECT_NEAR(got[i], 1 + zonal[1] * dot(a, d) + zonal[2] * quadratic(d), 2e-4) << shape << ' ' << spec;
+        EXPECT_NEAR(got[i], 1 + zonal[1] * dot(a, d) + zonal[2] * quadratic(d), 4e-4) << shape << ' ' << spec;
       }
     }
   }
 }
 
-/// The irradiance of a sky of radiance max(cos θ, 0) about +Y, over π: ⅔ straight up, and on a wall ∫∫ sin³θ
-/// cos θ cos φ over half the sky: ½/π… times 2 sin φ.
+/// The irradiance over π of a sky of radiance max(d.y, 0): ⅔ straight up; on a wall ∫ cos θ sin²θ dθ = ⅓
+/// times ∫ cos φ dφ = 2.
 TEST(PrefilterReference, IrradianceOfACosineSky) {
   const Map source = cases::rendered("latlong", 256, [](const Vec3d& d) { return std::max(d.y, 0.0); });
   const PrefilterReference reference(source);
@@ -110,7 +111,6 @@ TEST(PrefilterReference, IrradianceOfACosineSky) {
   const Vec3d ways[] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, -1, 0}};
   const std::vector<double> got = values(reference, lambert, ways);
   EXPECT_NEAR(got[0], 2.0 / 3, 1e-4);
-  // ∫ cos θ sin²θ dθ = 1/3, ∫ cos φ dφ = 2.
   EXPECT_NEAR(got[1], 2.0 / (3 * kPi), 1e-4);
   EXPECT_NEAR(got[2], 2.0 / (3 * kPi), 1e-4);
   EXPECT_NEAR(got[3], 0, 1e-4);
