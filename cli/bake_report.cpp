@@ -32,7 +32,8 @@ std::string or_dash(const char* format, const std::optional<T>& value) {
 }
 
 std::string method_text(const PrefilterMethod& method) {
-  std::string text = method.degree > 0 ? fmt::format("{} {}", method.name, method.degree) : method.name;
+  std::string text =
+      method.degree > 0 ? fmt::format("{}, degree {}", method.name, method.degree) : method.name;
   if (method.widened > 0) text += fmt::format(", σ {:.2g}°", method.widened * 180 / kPi);
   return text;
 }
@@ -64,14 +65,16 @@ void BakeReport::print() const {
   const std::size_t count = m.levels.size();
   fmt::print("{}: {}, {} of {}, {} {}\n", printable(out), printable(m.notes.lobe), m.shape->text(),
              size_text(m.levels.front().size), count, count == 1 ? "level" : "levels");
-  fmt::print("level  {}  roughness  {}", right("size", 11), left("method", 25));
-  if (!verification.empty()) fmt::print("  rel. RMSE %    max %    energy   furnace");
+  fmt::print(
+      "level  {}  roughness  {}", right("size", 11),
+      verification.empty() ? "method" : left("method", 33) + "  rel. RMSE %    max %    energy   furnace");
   fmt::print("\n");
   for (std::size_t i = 0; i < count; ++i) {
     const std::string roughness =
         i < m.notes.roughness.size() ? fmt::format("{:.6g}", m.notes.roughness[i]) : "–";
+    const std::string method = method_text(methods[i]);
     fmt::print("{:>5}  {}  {}  {}", i, right(size_text(m.levels[i].size), 11), right(roughness, 9),
-               left(method_text(methods[i]), 25));
+               verification.empty() ? method : left(method, 33));
     if (!verification.empty()) {
       const LevelVerification& v = verification[i];
       std::optional<double> rmse, maximum;

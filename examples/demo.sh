@@ -17,7 +17,7 @@ cd -- "$2"
 page=index.html
 exposure=-2.5
 turn=20,0,0                       # so that the balls show the room's corner
-mirrored=-1,0,0,0,1,0,0,0,1       # a ball's surface is seen from outside
+mirrored=-1,0,0,0,1,0,0,0,1       # because a ball is seen from outside
 
 say() { printf 'demo: %s\n' "$*" >&2; }
 escaped() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g' -e 's/>/\&gt;/g' -e 's/"/\&quot;/g' <<<"$1"; }
@@ -171,7 +171,7 @@ levels=$(levels_of specular | wc -l)
 </style>
 <h1>Lighting from a map</h1>
 <p>A rough surface reflects a blurred world. <code>welkin bake</code> blurs an environment map once for every roughness, so that a
-renderer only looks it up; then it measures how far the result is from brute force. These commands made what is below:</p>
+renderer only looks it up; then it measures how far the result is from brute force. These commands made the maps below:</p>
 <pre>welkin synth room room.exr --size 1024
 welkin bake room.exr specular.ktx2 --verify
 welkin bake room.exr diffuse.ktx2 --lobe lambert --verify</pre>
@@ -194,9 +194,10 @@ HTML
   cat <<'HTML'
 <h2>The chain</h2>
 <p>A cube texture of nine levels for the GGX lobe, from a mirror to roughness 1, each level half as large as the one before. On the
-left the ball that reflects the level, on the right its six faces.</p>
-<div class="cards">
+left the ball that reflects the level, on the right its six faces. Of level 3, these commands made them:</p>
 HTML
+  printf '<pre>welkin convert specular.ktx2 ball.png --level 3 --to sphere --size 256 --rotate %s --exposure %s --type uint8\n' "$turn" "$exposure"
+  printf 'welkin convert specular.ktx2 cube.png --level 3 --to cube:hcross --exposure %s --type uint8</pre>\n<div class="cards">\n' "$exposure"
   while IFS=$'\t' read -r level size roughness _; do
     printf '<div class="card" id="level-%s"><h3>Roughness %s <small>level %s, %s</small></h3><div class="pair">\n' \
       "$level" "$roughness" "$level" "$size"

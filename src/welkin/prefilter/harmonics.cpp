@@ -39,7 +39,8 @@ class Harmonics {
   void run(const Monitor& monitor) {
     transform_rows(part_of(monitor, 0, 0.1));
     analyse(part_of(monitor, 0.1, 0.4));
-    if (!t_.near.empty()) add_bright();
+    if (std::any_of(t_.harmonic.begin(), t_.harmonic.end(), [](const auto& level) { return level.all; }))
+      add_bright();
     synthesise(part_of(monitor, 0.4, 0.85));
     transform_back(part_of(monitor, 0.85, 1));
   }
@@ -80,7 +81,8 @@ class Harmonics {
         monitor);
   }
 
-  /// What the far parts of narrow lobes need: the coefficients of all masses, the bright ones included.
+  /// What far parts of narrow lobes and smooth lobes need: the coefficients of all masses, the bright ones
+  /// included.
   void add_bright() {
     const std::size_t size = offset_of(t_.degree + 1, t_.degree) * static_cast<std::size_t>(parts_);
     all_coefficients_ = Buffer(size);
@@ -140,19 +142,10 @@ class Harmonics {
         [&](int k) {
           const auto [i, m] = items[static_cast<std::size_t>(k)];
           synthesise_order(
-              t_.harmonic[i], is_far(i) ? all_coefficients_ : coefficients_, m,
+              t_.harmonic[i], t_.harmonic[i].all ? all_coefficients_ : coefficients_, m,
               level_orders_[i].data() + order_size(t_.harmonic[i].latitudes) * static_cast<std::size_t>(m));
         },
         monitor);
-  }
-
-  bool is_far(std::size_t harmonic) const {
-    for (const NearGroup& group : t_.near) {
-      for (const NearLevel& level : group.levels) {
-        if (level.harmonic == harmonic) return true;
-      }
-    }
-    return false;
   }
 
   void synthesise_order(const HarmonicLevel& level, const Buffer& coefficients, int m, float* orders) {
@@ -251,13 +244,15 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
   for (int first = 0; first < source.channels(); first += 3) {
     const double share = 0.28 / source.channels(), from = 0.22 + first * share;
     const int channels = std::min(3, source.channels() - first);
-    Harmonics(t, moments, bright, first, channels, grids).run(part_of(monitor, from, from + channels * share));
+    Harmonics(t, moments, bright, first, channels, grids)
+        .run(part_of(monitor, from, from + channels * share));
   }
 
   std::vector<std::vector<Level>> near_grids;
   std::vector<const Level*> near(t.harmonic.size(), nullptr);
   for (const NearGroup& group : t.near) {
-    const double share = 0.2 / static_cast<double>(t.near.size()), from = 0.5 + share * static_cast<double>(near_grids.size());
+    const double share = 0.2 / static_cast<double>(t.near.size()),
+                 from = 0.5 + share * static_cast<double>(near_grids.size());
     near_grids.push_back(run_near(group, source, part_of(monitor, from, from + share)));
     for (std::size_t i = 0; i < group.levels.size(); ++i)
       near[group.levels[i].harmonic] = &near_grids.back()[i];

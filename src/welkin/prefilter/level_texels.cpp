@@ -73,7 +73,7 @@ void LevelTexels::turn(float* x, float* y, float* z, std::size_t count) const {
 
 void LevelTexels::add_bright(const float* x, const float* y, const float* z, float* values,
                              std::size_t count) const {
-  if (bright_.count() == 0) return;
+  if (level_.all || bright_.count() == 0) return;
   const lobe::Points points{bright_.x.data(), bright_.y.data(), bright_.z.data(),
                             masses_.data(),   bright_.count(),  bright_.channels};
   if (level_.sampled.empty()) {

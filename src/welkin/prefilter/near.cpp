@@ -101,7 +101,8 @@ std::vector<Level> run_near(const NearGroup& group, const Map& source, const Mon
     RowOrders masses = mass_orders(group, moments, first, channels, last, reach, quiet);
     for (std::size_t i = 0; i < grids.size(); ++i) {
       convolve(group.levels[i], masses, first, channels, grids[i], quiet);
-      if (monitor.progress) monitor.progress(0.2 + 0.8 * static_cast<double>(i + 1) / static_cast<double>(grids.size()));
+      if (monitor.progress)
+        monitor.progress(0.2 + 0.8 * static_cast<double>(i + 1) / static_cast<double>(grids.size()));
     }
   }
   constexpr int kColumns = 64;

@@ -57,14 +57,15 @@ std::vector<double> cosine_sums(const std::vector<double>& place, const std::vec
   return sums;
 }
 
-/// A normalised lobe sampled once, for the many looks at it: linear between values at even steps of c/(c + width) of the
-/// chord c.
+/// A normalised lobe sampled once, for the many looks at it: linear between values at even steps of c/(c +
+/// width) of the chord c.
 class Samples {
  public:
   Samples(const lobe::AnyLobe& lobe, double width) : width_(width), last_(2 / (2 + width)) {
     const double scale = 1 / lobe.integral();
     for (int i = 0; i <= kSteps + 1; ++i) {
-      const double part = std::min(last_, last_ * i / kSteps), chord = std::min(2.0, width * part / (1 - part));
+      const double part = std::min(last_, last_ * i / kSteps),
+                   chord = std::min(2.0, width * part / (1 - part));
       values_.push_back(scale * lobe.weight(chord * chord / 2));
     }
   }

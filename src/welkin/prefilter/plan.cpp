@@ -55,7 +55,7 @@ Filter mirror_filter(const PrefilterOptions& options, const Map& from,
                      const sphere::AnyParameterization& target, ChartSize size) {
   if (options.mirror_filter != Filter::automatic) return options.mirror_filter;
   const double source = mean_texel(from.parameterization, {from.width(), from.height()});
-  return mean_texel(target, size) < 1.5 * source ? Filter::bicubic : Filter::automatic;
+  return mean_texel(target, size) < 1.5 * source ? Filter::bilinear : Filter::automatic;
 }
 
 }  // namespace
@@ -110,6 +110,7 @@ HarmonicLevel::HarmonicLevel(const WidenedLobe& widened, const std::vector<doubl
       zonal(coefficients.begin(), coefficients.end()),
       turn(turns(degree, grid.width, moments_width)),
       lobe(widened.lobe),
+      all(widened.smooth),
       scale(1 / widened.lobe.integral()) {
   if (widened.sigma > 0) sampled.emplace_back(lobe);
   grid.height = grid.width / 2;
@@ -174,7 +175,7 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
     }
     NearLevel& near = group->levels.emplace_back(lobe, tables->harmonic.size(), rows, kFarDegree,
                                                  options.tolerance / 5, group->moments.width);
-    tables->harmonic.emplace_back(lobe, near.field.far, static_cast<int>(i), width);
+    tables->harmonic.emplace_back(lobe, near.field.far, static_cast<int>(i), width).all = true;
     tables->methods.push_back({"near and far", kFarDegree, near.grid, lobe.lobe, lobe.sigma, false});
   }
   if (!tables->harmonic.empty()) {

@@ -43,8 +43,9 @@ struct PrefilterOptions {
   /// Of the results: Map::orientation.
   Matrix3 orientation = {};
   LobeScale scale = LobeScale::average;
-  /// How a mirror's level is read. `automatic`: bicubic where the source is about as fine as the level; where
-  /// it is finer, averaged over the level's texels, or over boxes of its own about as large and then bicubic.
+  /// How a mirror's level is read. `automatic`: bilinear where the source is about as fine as the level;
+  /// where it is finer, averaged over the level's texels, or over boxes of its own about as large and then
+  /// bilinear.
   Filter mirror_filter = Filter::automatic;
 };
 

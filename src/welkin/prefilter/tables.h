@@ -29,6 +29,7 @@ struct HarmonicLevel {
   std::vector<float> turn;   ///< cos, sin of the shift between the two grids' columns for each order, times
                              ///< the spline's factors
   lobe::AnyLobe lobe;
+  bool all = false;  ///< harmonics of all masses, the bright ones too: a far part, or a smooth lobe
   std::vector<prefilter::SampledLobe> sampled;  ///< of a widened lobe; else none
   double scale;                                 ///< of a mass, so that the lobe's integral is 1
 };

@@ -48,9 +48,12 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   std::vector<double> zonal = lobe::zonal_coefficients(lobe, std::min(most, 4 * finest + 192));
   if (static_cast<std::size_t>(finest) >= zonal.size() ||
       std::fabs(zonal[static_cast<std::size_t>(finest)]) <= std::exp(-kDecay)) {
-    const int degree = degree_of(zonal, tolerance);
-    zonal.resize(static_cast<std::size_t>(degree) + 1);
-    return {lobe, std::move(zonal), 0};
+    const int needed = degree_of(zonal, tolerance);
+    const int degree = std::max(needed, std::min(kCheapDegree, degree_of(zonal, tolerance / 20)));
+    // Float's own rounding is about 1e-7 of the light.
+    const bool smooth = degree_of(zonal, 1e-7) <= kCheapDegree;
+    zonal.resize(static_cast<std::size_t>(smooth ? degree_of(zonal, 1e-7) : degree) + 1);
+    return {lobe, std::move(zonal), 0, smooth};
   }
   const double square = 2 * (kDecay + std::log(std::fabs(zonal[static_cast<std::size_t>(finest)]))) /
                         (static_cast<double>(finest) * (finest + 1));

@@ -16,11 +16,16 @@ struct WidenedLobe {
   lobe::AnyLobe lobe;         ///< a table when it was widened
   std::vector<double> zonal;  ///< its coefficients, as far as they matter
   double sigma = 0;           ///< of the Gaussian, radians; 0 when the lobe is as it was
+  bool smooth = false;  ///< what is left out is nothing, even beside light that is bright beyond measure
 };
 
 /// The lobe as wide as texels of `texel` radians need it. `tolerance`: degrees whose coefficients matter less
 /// are left out (see degree_of). Not for mirrors.
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance);
+
+/// Degrees that are cheap: up to here coefficients are kept that matter twenty times less, since a cut at the
+/// horizon falls off slowly and bright lights tell in dim places.
+inline constexpr int kCheapDegree = 160;
 
 /// The least degree for which what is left out of the lobe is, in the mean square over the sphere, a
 /// `tolerance` of it.
