@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "welkin/base/number_text.h"
+#include "welkin/lobe/energy.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/resample.h"
 #include "welkin/prefilter/spline_grid.h"
@@ -89,13 +91,35 @@ std::vector<float> order_factors(const MomentPlan& moments, int last) {
 /// Lobes with more degrees than this are split into near and far.
 constexpr int kMostDegree = 480;
 
-/// Degree of the far part's harmonics.
-constexpr int kFarDegree = 300;
+/// Whether a lobe is to be split into near and far: too many degrees, and most of it near its axis. A narrow
+/// ring isn't.
+bool is_split(const WidenedLobe& lobe) {
+  return static_cast<int>(lobe.zonal.size()) - 1 > kMostDegree && lobe::angle_holding(lobe.lobe, 0.5) < 0.2;
+}
 
-/// Rows that a near part is done on. They resolve what is left of it at the scale of the texel.
-int near_rows(const sphere::AnyParameterization& source, double texel) {
-  const double rows = (source.spec() == "latlong" ? 2.4 : 2.4) * kPi / texel;
+/// Rows that a near part is done on. They resolve what is left of the lobe at the scale of the texel, or all
+/// of it where it is wider.
+int near_rows(const sphere::AnyParameterization& source, double texel, int degree) {
+  const double rows = std::min((source.spec() == "latlong" ? 2.4 : 2.8) * kPi / texel, 1.8 * degree);
   return std::max(32, static_cast<int>(std::ceil(rows / 16)) * 16);
+}
+
+/// Degree of the far part's harmonics: the near part reaches about as many rows then, however fine they are.
+int far_degree(int rows) {
+  return std::max(300, rows * 2 / 9);
+}
+
+/// Throws when a near part's tables and rows would take more memory than is reasonable.
+void check_near_size(int rows, int channels) {
+  const double n = rows, orders = 1.2 * n;
+  const double bytes =
+      4 * (orders / 8 * 30 * n + 4 * orders * std::min(channels, 3) * n + 2.4 * n * n * channels);
+  constexpr double kMost = 24e9;
+  if (bytes > kMost) {
+    throw Error("prefilter: so narrow a lobe on so fine a level would take " +
+                number_text(std::round(bytes / 1e9)) +
+                " GB of memory: make the level smaller, or the roughness 0 or larger");
+  }
 }
 
 }  // namespace
@@ -135,14 +159,19 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
   auto tables = std::make_shared<Tables>(Tables{source, target, std::move(levels), options});
   // How fine each lobe is decides on the method.
   const double source_texel = mean_texel(source.parameterization, source.size);
+  const auto texel_of = [&](std::size_t i) {
+    return std::max(source_texel, mean_texel(target, tables->levels[i].size));
+  };
+  const auto rows_of = [&](std::size_t i, int degree) {
+    return near_rows(source.parameterization, texel_of(i), degree);
+  };
   std::vector<std::optional<WidenedLobe>> lobes(tables->levels.size());
   for (std::size_t i = 0; i < lobes.size(); ++i) {
     const PrefilterLevel& level = tables->levels[i];
     if (level.lobe.mirror()) continue;
-    lobes[i] =
-        widen(level.lobe, std::max(source_texel, mean_texel(target, level.size)), options.tolerance / 5);
+    lobes[i] = widen(level.lobe, texel_of(i), options.tolerance / 5);
     const int degree = static_cast<int>(lobes[i]->zonal.size()) - 1;
-    tables->degree = std::max(tables->degree, degree > kMostDegree ? kFarDegree : degree);
+    tables->degree = std::max(tables->degree, is_split(*lobes[i]) ? far_degree(rows_of(i, degree)) : degree);
   }
   if (tables->degree > 0) tables->moments.emplace_back(source.parameterization, source.size, tables->degree);
   for (std::size_t i = 0; i < lobes.size(); ++i) {
@@ -160,23 +189,23 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
     }
     const WidenedLobe& lobe = *lobes[i];
     const int degree = static_cast<int>(lobe.zonal.size()) - 1, width = tables->moments[0].width;
-    if (degree <= kMostDegree) {
+    if (!is_split(lobe)) {
       tables->harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(i), width);
       tables->methods.push_back(
           {"harmonics", degree, tables->harmonic.back().grid, lobe.lobe, lobe.sigma, false});
       continue;
     }
-    const int rows = near_rows(source.parameterization,
-                               std::max(source_texel, mean_texel(target, tables->levels[i].size)));
+    const int rows = rows_of(i, degree);
+    check_near_size(rows, source.channels);
     auto group = std::find_if(tables->near.begin(), tables->near.end(),
                               [&](const NearGroup& each) { return each.moments.height == rows; });
     if (group == tables->near.end()) {
       group = tables->near.emplace(tables->near.end(), source, rows, 4 * rows);
     }
-    NearLevel& near = group->levels.emplace_back(lobe, tables->harmonic.size(), rows, kFarDegree,
+    NearLevel& near = group->levels.emplace_back(lobe, tables->harmonic.size(), rows, far_degree(rows),
                                                  options.tolerance / 5, group->moments.width);
     tables->harmonic.emplace_back(lobe, near.field.far, static_cast<int>(i), width).all = true;
-    tables->methods.push_back({"near and far", kFarDegree, near.grid, lobe.lobe, lobe.sigma, false});
+    tables->methods.push_back({"near and far", far_degree(rows), near.grid, lobe.lobe, lobe.sigma, false});
   }
   if (!tables->harmonic.empty()) {
     for (int m = 0; m <= tables->degree; ++m) tables->recurrences.emplace_back(m, tables->degree);
