@@ -31,7 +31,7 @@ struct Latitudes {
   std::vector<float> cosine_squared;  ///< packs × 8
   std::vector<double> cosine;
   std::vector<double> log_sine;
-  std::vector<int> last_order;  ///< of each pack: for larger m, no P̄ₗᵐ up to the degree passes 1e-10
+  std::vector<int> last_order;  ///< of each pack: for larger m, no P̄ₗᵐ up to the degree passes 2e-6
 };
 
 /// The recurrence of one order m for degrees m … degree + 1.

@@ -161,10 +161,11 @@ ColumnSpread::ColumnSpread(int count) : columns(count) {
 
 MomentPlan::MomentPlan(const AnyParameterization& source, ChartSize size, int degree) {
   const int least = std::max(16, static_cast<int>(1.42 * degree));
-  const bool latlong = source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width);
+  // Columns far wider than what the lobes resolve are no boxes to be done along the row alone.
+  const bool latlong = source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width) &&
+                       (degree <= size.width || size.height <= size.width);
   if (!latlong) {
-    // Half as fine again: cubic interpolation has more to do here.
-    width = fft_length(std::max(3 * least, 64));
+    width = fft_length(std::max(2 * least + least / 4, 64));
     height = width / 2;
     return;
   }
@@ -190,7 +191,8 @@ MomentPlan::MomentPlan(const AnyParameterization& source, ChartSize size, int de
 MomentPlan MomentPlan::with_rows(const AnyParameterization& source, ChartSize size, int count) {
   MomentPlan plan;
   plan.height = count;
-  if (!(source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width))) {
+  if (!(source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width) &&
+        size.height <= size.width)) {
     plan.width = fft_length(2 * count);
     return plan;
   }

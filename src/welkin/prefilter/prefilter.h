@@ -72,9 +72,9 @@ class PrefilterPlan {
                 std::vector<PrefilterLevel> levels, const PrefilterOptions& options = {});
 
   /// The levels of a map of the plan's source shape (Error when it is another), which must have its borders
-  /// filled; the results' are not. Throws Error for values that aren't finite, and for magnitudes over 1e30;
-  /// Cancelled. Results are never negative where the source isn't. The same numbers whatever the number of
-  /// threads.
+  /// filled; the results' are not. Throws Error for values that aren't finite, or so large that their
+  /// sum passes 1e34; Cancelled. Results are never negative where the source isn't. The same numbers whatever
+  /// the number of threads.
   std::vector<Map> run(const Map& source, const Monitor& monitor = {}) const;
 
   const std::vector<PrefilterMethod>& methods() const;

@@ -47,8 +47,8 @@ TEST(PrefilterInput, RefusesValuesThatCannotBeSummed) {
   for (const char* shape : {"latlong", "cube"}) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                             -std::numeric_limits<float>::infinity(), 2e38f}) {
-      Map source = landscape(shape, 16, 16, 3);
-      source.level.chart(source.charts() - 1).at(15, 15)[2] = bad;
+      Map source = landscape(shape, 8, 8, 3);
+      source.level.chart(source.charts() - 1).at(7, 7)[2] = bad;
       EXPECT_NE(message_of([&] { plan_for(source).run(source); }).find("NaN"), std::string::npos) << bad;
       for (const char* lobe : {"ggx,roughness=0", "lambert"}) {
         EXPECT_NE(message_of([&] { prefiltered(source, "cube", kSize, lobe); }).find("NaN"),
@@ -56,7 +56,7 @@ TEST(PrefilterInput, RefusesValuesThatCannotBeSummed) {
             << lobe << ' ' << bad;
       }
     }
-    Map source = landscape(shape, 16, 16, 3);
+    Map source = landscape(shape, 8, 8, 3);
     source.level.chart(0).at(3, 3)[1] = 1e30f;
     source.level.chart(0).at(5, 3)[1] = std::numeric_limits<float>::denorm_min();
     fill_borders(source);
@@ -135,7 +135,7 @@ TEST(PrefilterPlan, GivesTheSameNumbersFromManyThreads) {
 
 /// Work is asked after every piece: whenever the answer is yes, it ends, and soon.
 TEST(PrefilterPlan, StopsWheneverItIsAsked) {
-  const Map source = landscape("cube", 32, 32, 3);
+  const Map source = landscape("cube", 12, 12, 1);
   const PrefilterPlan plan = plan_for(source);
   std::atomic<int> asked{0};
   Monitor counting;
@@ -147,9 +147,9 @@ TEST(PrefilterPlan, StopsWheneverItIsAsked) {
   const int all = asked;
   EXPECT_GT(all, 100);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  for (int part = 0; part < 20; ++part) {
+  for (int part = 0; part < 10; ++part) {
     asked = 0;
-    const int limit = all * part / 20;
+    const int limit = all * part / 10;
     Monitor monitor;
     monitor.cancelled = [&] { return ++asked > limit; };
     EXPECT_THROW(plan.run(source, monitor), Cancelled) << part;

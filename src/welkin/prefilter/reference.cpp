@@ -14,7 +14,42 @@ const double kGauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)
 /// A piece is small enough when its size squared is this part of width² + distance².
 constexpr double kSmall = 0.01;
 
+/// And this, radians², where the lobe has a kink at the horizon.
+constexpr double kSmallKink = 4e-4;
+
 }  // namespace
+
+/// A lobe does less and less away from where it is largest: its axis, or a ring about it.
+struct PrefilterReference::Scale {
+  explicit Scale(const lobe::AnyLobe& lobe) : core(lobe.width()) {
+    constexpr int kSteps = 2000;
+    double largest = lobe.weight(0);
+    for (int i = 1; i <= kSteps; ++i) {
+      const double angle = kPi * i / kSteps, sine = std::sin(angle / 2), value = lobe.weight(2 * sine * sine);
+      if (value > largest * (1 + 1e-9)) {
+        largest = value;
+        peak = angle;
+      }
+    }
+    for (const double s : lobe.breakpoints()) kink = kink || s == 1;
+  }
+
+  /// Whether a piece of that squared size at s = 1 − cos θ is to be cut up.
+  bool coarse(double size, double s) const {
+    double away = 2 * s;
+    if (peak > 0) {
+      // To the near side of the piece.
+      away =
+          std::max(0.0, std::fabs(2 * std::asin(std::sqrt(std::min(1.0, s / 2))) - peak) - std::sqrt(size));
+      away *= away;
+    }
+    if (size > kSmall * (core * core + away)) return true;
+    return kink && size > kSmallKink && (s - 1) * (s - 1) < size;
+  }
+
+  double core, peak = 0;
+  bool kink = false;
+};
 
 PrefilterReference::PrefilterReference(const Map& source)
     : parameterization_(source.parameterization),
@@ -55,17 +90,17 @@ PrefilterReference::PrefilterReference(const Map& source)
   }
 }
 
-double PrefilterReference::near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, double core,
+double PrefilterReference::near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale,
                                       int chart, double u, double v, double du, double dv) const {
   const Vec3d middle = parameterization_.to_sphere(chart, u + du / 2, v + dv / 2);
   const Vec3d right = parameterization_.to_sphere(chart, u + du, v + dv / 2) - middle;
   const Vec3d down = parameterization_.to_sphere(chart, u + du / 2, v + dv) - middle;
   const Vec3d away = middle - direction;
   const double size = 4 * std::max(dot(right, right), dot(down, down));
-  if (size > kSmall * (core * core + dot(away, away)) && size > 1e-20) {
+  if (size > 1e-20 && scale.coarse(size, dot(away, away) / 2)) {
     double sum = 0;
     for (int k = 0; k < 4; ++k) {
-      sum += near_texel(lobe, direction, core, chart, u + (k % 2) * du / 2, v + (k / 2) * dv / 2, du / 2,
+      sum += near_texel(lobe, direction, scale, chart, u + (k % 2) * du / 2, v + (k / 2) * dv / 2, du / 2,
                         dv / 2);
     }
     return sum;
@@ -119,7 +154,8 @@ class Weights64 {
 
 void PrefilterReference::evaluate(const lobe::AnyLobe& lobe, std::span<const Vec3d> directions,
                                   std::span<double> out, const Monitor& monitor) const {
-  const double core = lobe.width(), scale = 1 / lobe.integral();
+  const Scale fineness(lobe);
+  const double scale = 1 / lobe.integral();
   const Weights64 weights(lobe);
   const std::size_t texels = texel_.size(), channels = static_cast<std::size_t>(channels_);
   parallel_for(
@@ -140,11 +176,11 @@ void PrefilterReference::evaluate(const lobe::AnyLobe& lobe, std::span<const Vec
           for (std::size_t i = 0; i < count; ++i) {
             const std::size_t k = first + i;
             double integral = 0;
-            if (size_[k] > kSmall * (core * core + 2 * s[4 * i])) {
+            if (fineness.coarse(size_[k], s[4 * i])) {
               const int x = static_cast<int>(texel_[k] % static_cast<std::size_t>(width_));
               const int row = static_cast<int>(texel_[k] / static_cast<std::size_t>(width_));
               integral =
-                  near_texel(lobe, r, core, row / height_, static_cast<double>(x) / width_,
+                  near_texel(lobe, r, fineness, row / height_, static_cast<double>(x) / width_,
                              static_cast<double>(row % height_) / height_, 1.0 / width_, 1.0 / height_);
             } else {
               for (std::size_t j = 0; j < 4; ++j) integral += weight[4 * i + j] * solid_angle_[4 * k + j];

@@ -26,8 +26,11 @@ class PrefilterReference {
   const std::vector<double>& integral() const { return integral_; }
 
  private:
-  double near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, double core, int chart, double u,
-                    double v, double du, double dv) const;
+  /// How fine a lobe is, for steps.
+  struct Scale;
+
+  double near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale, int chart,
+                    double u, double v, double du, double dv) const;
 
   sphere::AnyParameterization parameterization_;
   Matrix3 orientation_;

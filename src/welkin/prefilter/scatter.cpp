@@ -10,7 +10,8 @@ namespace {
 
 using sphere::AnyParameterization;
 
-/// Masses deposited at any place: a grid with two rows and columns more on every side, folded in at the end.
+/// Masses deposited at any place: a grid with three rows and columns more on every side, folded in at the
+/// end.
 class Deposit {
  public:
   Deposit(int width, int height, int channels)
@@ -24,24 +25,24 @@ class Deposit {
   static constexpr int padded(int channels) { return (channels + 3) / 4 * 4; }
 
   /// `mass` (one value per channel, padded with anything finite, times `weight`) at u, v of the grid's
-  /// picture: spread over 4×4 points by the weights of cubic Lagrange interpolation there.
+  /// picture: spread over 6×6 points by the weights of Lagrange interpolation of degree five there.
   void add(float u, float v, const float* mass, float weight) {
     const float x = u * static_cast<float>(width_) - 0.5f, y = v * static_cast<float>(height_) - 0.5f;
     // x and y are above −2: truncating rounds down.
     const int left = static_cast<int>(x + 2) - 2, top = static_cast<int>(y + 2) - 2;
-    float wx[4], wy[4];
+    float wx[6], wy[6];
     weights(x - static_cast<float>(left), wx);
     weights(y - static_cast<float>(top), wy);
-    const int column = std::clamp(left, -1, width_ - 1) - 1 + kMargin;
-    const int row = std::clamp(top, -1, height_ - 1) - 1 + kMargin;
+    const int column = std::clamp(left, -1, width_ - 1) - 2 + kMargin;
+    const int row = std::clamp(top, -1, height_ - 1) - 2 + kMargin;
     float* to = masses_.data() + static_cast<std::size_t>(row) * stride_ +
                 static_cast<std::size_t>(column) * static_cast<std::size_t>(channels_);
     for (int first = 0; first < channels_; first += 4) {
       float part[4];
       for (int c = 0; c < 4; ++c) part[c] = weight * mass[first + c];
-      for (int j = 0; j < 4; ++j) {
+      for (int j = 0; j < 6; ++j) {
         float* at = to + static_cast<std::size_t>(j) * stride_ + first;
-        for (int i = 0; i < 4; ++i, at += channels_) {
+        for (int i = 0; i < 6; ++i, at += channels_) {
           const float w = wy[j] * wx[i];
           for (int c = 0; c < 4; ++c) at[c] += w * part[c];
         }
@@ -68,14 +69,17 @@ class Deposit {
   float* row(int y) { return at(0, y); }
 
  private:
-  static constexpr int kMargin = 2;
+  static constexpr int kMargin = 3;
 
+  /// For the points −2 … 3 about a fraction f.
   static void weights(float f, float* w) {
-    const float a = f + 1, b = f - 1, c = f - 2;
-    w[0] = -f * b * c * (1.0f / 6);
-    w[1] = a * b * c * 0.5f;
-    w[2] = -a * f * c * 0.5f;
-    w[3] = a * f * b * (1.0f / 6);
+    const float a = f + 2, b = f + 1, c = f, d = f - 1, e = f - 2, g = f - 3;
+    w[0] = -b * c * d * e * g * (1.0f / 120);
+    w[1] = a * c * d * e * g * (1.0f / 24);
+    w[2] = -a * b * d * e * g * (1.0f / 12);
+    w[3] = a * b * c * e * g * (1.0f / 12);
+    w[4] = -a * b * c * d * g * (1.0f / 24);
+    w[5] = a * b * c * d * e * (1.0f / 120);
   }
 
   float* at(int x, int y) {
@@ -95,10 +99,13 @@ class Deposit {
   std::vector<float> masses_;
 };
 
-/// The largest side of a texel of a map of this size, radians, from a raster of places.
-double largest_texel(const AnyParameterization& p, int width, int height) {
+/// The largest sides of a texel of a map of this size, radians, from a raster of places.
+struct TexelSides {
+  double across = 0, down = 0;
+};
+TexelSides largest_texel(const AnyParameterization& p, int width, int height) {
   constexpr int kRaster = 24;
-  double largest = 0;
+  TexelSides largest;
   for (int chart = 0; chart < p.charts(); ++chart) {
     for (int j = 0; j < kRaster; ++j) {
       for (int i = 0; i < kRaster; ++i) {
@@ -106,62 +113,55 @@ double largest_texel(const AnyParameterization& p, int width, int height) {
         if (!p.valid(chart, u, v)) continue;
         const double step = 1e-4;
         const Vec3d d = p.to_sphere(chart, u, v);
-        largest = std::max(largest, length(p.to_sphere(chart, u + step, v) - d) / (step * width));
-        largest = std::max(largest, length(p.to_sphere(chart, u, v + step) - d) / (step * height));
+        largest.across =
+            std::max(largest.across, length(p.to_sphere(chart, u + step, v) - d) / (step * width));
+        largest.down = std::max(largest.down, length(p.to_sphere(chart, u, v + step) - d) / (step * height));
       }
     }
   }
   return largest;
 }
 
-/// Deposits rows of any map: each texel by points of Gauss's rule in its sub-cells.
+/// Where along a side of a texel, 0 … 1, its points lie: two of Gauss's in each cell, cells no wider than a
+/// step of the grid. One point where the texel is far finer.
+std::vector<float> offsets_of(double texel, double step) {
+  if (texel < step / 6) return {0.5f};
+  const int cells = std::max(1, static_cast<int>(std::ceil(texel / step - 1e-3)));
+  std::vector<float> offsets;
+  for (int cell = 0; cell < cells; ++cell) {
+    for (double side : {-1.0, 1.0}) {
+      offsets.push_back(static_cast<float>((cell + 0.5 + side / (2 * std::sqrt(3.0))) / cells));
+    }
+  }
+  return offsets;
+}
+
+/// Deposits rows of any map.
 class Scatter {
  public:
-  Scatter(const Map& map, int width, int height) : map_(map), grid_(AnyParameterization::make("latlong")) {
-    const double step = kPi / height, texel = largest_texel(map.parameterization, map.width(), map.height());
-    (void)width;
-    if (texel < step / 6) {
-      offsets_ = {0.5f};
-    } else {
-      // Two points each in cells no wider than a step of the grid.
-      const int cells = std::max(1, static_cast<int>(std::ceil(texel / step - 1e-3)));
-      for (int cell = 0; cell < cells; ++cell) {
-        for (double side : {-1.0, 1.0}) {
-          offsets_.push_back(static_cast<float>((cell + 0.5 + side / (2 * std::sqrt(3.0))) / cells));
-        }
-      }
-    }
+  Scatter(const Map& map, int height) : map_(map), grid_(AnyParameterization::make("latlong")) {
+    const double step = kPi / height;
+    const TexelSides texel = largest_texel(map.parameterization, map.width(), map.height());
+    across_ = offsets_of(texel.across, step);
+    down_ = offsets_of(texel.down, step);
   }
 
   void row(int chart, int y, Deposit& deposit) const {
-    constexpr std::size_t kBatch = 256;
-    alignas(64) float u[kBatch], v[kBatch], dx[kBatch], dy[kBatch], dz[kBatch], density[kBatch], mask[kBatch];
-    alignas(64) float to_chart[kBatch], to_u[kBatch], to_v[kBatch];
-    const AnyParameterization& p = map_.parameterization;
-    const bool full = p.full_charts();
-    const int width = map_.width(), height = map_.height(), n = map_.channels();
+    const int width = map_.width(), n = map_.channels();
     const float* texels = map_.level.chart(chart).row(y);
-    const double points = static_cast<double>(offsets_.size());
-    const float area = static_cast<float>(1.0 / (points * points * width * height));
-    for (float down : offsets_) {
-      for (float across : offsets_) {
+    alignas(64) float to_chart[kBatch], to_u[kBatch], to_v[kBatch];
+    for (float down : down_) {
+      for (float across : across_) {
         for (int from = 0; from < width; from += static_cast<int>(kBatch)) {
-          const std::size_t count = std::min(kBatch, static_cast<std::size_t>(width - from));
-          for (std::size_t i = 0; i < sphere::padded(count); ++i) {
-            const float x = static_cast<float>(from + static_cast<int>(std::min(i, count - 1)));
-            u[i] = (x + across) / static_cast<float>(width);
-            v[i] = (static_cast<float>(y) + down) / static_cast<float>(height);
-          }
-          p.kernels().to_sphere(p.self(), chart, u, v, dx, dy, dz, count);
-          p.kernels().density(p.self(), chart, u, v, density, count);
-          if (!full) p.kernels().valid(p.self(), chart, u, v, mask, count);
-          grid_.kernels().from_sphere(grid_.self(), dx, dy, dz, to_chart, to_u, to_v, count);
-          for (std::size_t i = 0; i < count; ++i) {
-            if (!full && mask[i] == 0) continue;
+          Points points(*this, chart, y, from, across, down);
+          grid_.kernels().from_sphere(grid_.self(), points.x, points.y, points.z, to_chart, to_u, to_v,
+                                      points.count);
+          for (std::size_t i = 0; i < points.count; ++i) {
+            const std::size_t column = static_cast<std::size_t>(from) + i;
+            if (points.weight[i] == 0) continue;
             // Texels past the row's end, if read, are its border: any values will do, and reading them is
             // allowed.
-            const float* texel = texels + (static_cast<std::size_t>(from) + i) * static_cast<std::size_t>(n);
-            deposit.add(to_u[i], to_v[i], texel, std::max(density[i], 0.0f) * area);
+            deposit.add(to_u[i], to_v[i], texels + column * static_cast<std::size_t>(n), points.weight[i]);
           }
         }
       }
@@ -169,16 +169,44 @@ class Scatter {
   }
 
  private:
+  static constexpr std::size_t kBatch = 256;
+
+  /// One point of each of up to kBatch texels of a row: directions, and the solid angles that they stand for;
+  /// 0 outside the map's places.
+  struct Points {
+    Points(const Scatter& s, int chart, int row, int from, float across, float down) {
+      const AnyParameterization& p = s.map_.parameterization;
+      const int width = s.map_.width(), height = s.map_.height();
+      count = std::min(kBatch, static_cast<std::size_t>(width - from));
+      alignas(64) float u[kBatch], v[kBatch], mask[kBatch];
+      for (std::size_t i = 0; i < sphere::padded(count); ++i) {
+        const float column = static_cast<float>(from + static_cast<int>(std::min(i, count - 1)));
+        u[i] = (column + across) / static_cast<float>(width);
+        v[i] = (static_cast<float>(row) + down) / static_cast<float>(height);
+      }
+      p.kernels().to_sphere(p.self(), chart, u, v, x, y, z, count);
+      p.kernels().density(p.self(), chart, u, v, weight, count);
+      const double points = static_cast<double>(s.across_.size()) * static_cast<double>(s.down_.size());
+      const float area = static_cast<float>(1 / (points * width * height));
+      for (std::size_t i = 0; i < count; ++i) weight[i] = std::max(weight[i], 0.0f) * area;
+      if (p.full_charts()) return;
+      p.kernels().valid(p.self(), chart, u, v, mask, count);
+      for (std::size_t i = 0; i < count; ++i) weight[i] = mask[i] > 0 ? weight[i] : 0.0f;
+    }
+    alignas(64) float x[kBatch], y[kBatch], z[kBatch], weight[kBatch];
+    std::size_t count;
+  };
+
   const Map& map_;
   AnyParameterization grid_;
-  std::vector<float> offsets_;  ///< of the points in a texel, 0 … 1, the same along both sides
+  std::vector<float> across_, down_;  ///< places of the points along the sides of a texel, 0 … 1
 };
 
 }  // namespace
 
 void scatter_texels(const Map& map, Moments& moments, const Monitor& monitor) {
   const int width = moments.width, height = moments.height, n = moments.channels;
-  const Scatter scatter(map, width, height);
+  const Scatter scatter(map, height);
   const int rows = map.charts() * map.height();
   // The number of deposits doesn't depend on the number of threads, so neither do the sums.
   const int slices = std::min(8, rows);

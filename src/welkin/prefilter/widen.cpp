@@ -45,7 +45,14 @@ int degree_of(const std::vector<double>& zonal, double tolerance) {
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   const int finest = std::clamp(static_cast<int>(kPi / texel), 1, kMostDegree / 4);
   const int most = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMostDegree);
-  std::vector<double> zonal = lobe::zonal_coefficients(lobe, std::min(most, 4 * finest + 192));
+  int known = std::min(most, 4 * finest + 192);
+  std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
+  // A lobe with a step or a kink falls off slowly: as many degrees as show it to matter no more, or as many
+  // as are worth it.
+  while (known < 768 && degree_of(zonal, tolerance) > known * 9 / 10) {
+    known *= 2;
+    zonal = lobe::zonal_coefficients(lobe, known);
+  }
   if (static_cast<std::size_t>(finest) >= zonal.size() ||
       std::fabs(zonal[static_cast<std::size_t>(finest)]) <= std::exp(-kDecay)) {
     const int needed = degree_of(zonal, tolerance);
