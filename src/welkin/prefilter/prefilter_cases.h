@@ -10,6 +10,13 @@ namespace welkin::prefilter_cases {
 using lobe::AnyLobe;
 using sphere::AnyParameterization;
 
+/// Sanitizers make brute force ten times slower: a third of the cases is left to them.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr std::size_t kThin = 3;
+#else
+inline constexpr std::size_t kThin = 1;
+#endif
+
 /// Dark ground, a bright sky, noise in every texel and a few lamps a hundred times as bright. Channel c is
 /// (c + 1) times as bright, but for the noise.
 inline Map landscape(const std::string& spec, int width, int height, int channels = 1, unsigned seed = 8) {

@@ -52,7 +52,7 @@ TEST(PrefilterLaws, AConstantMapStaysConstant) {
     // Every fifth lobe of each.
     std::vector<PrefilterLevel> levels;
     const std::vector<AnyLobe> all = lobes();
-    for (std::size_t i = which++ % 5; i < all.size(); i += 5) levels.push_back({{9, 9}, all[i]});
+    for (std::size_t i = which++ % 5; i < all.size(); i += 5 * kThin) levels.push_back({{9, 9}, all[i]});
     const std::vector<Map> results = prefilter_map(source, AnyParameterization::make("cube"), levels);
     for (std::size_t i = 0; i < levels.size(); ++i) {
       double worst = 0;

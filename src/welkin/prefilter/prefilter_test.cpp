@@ -60,7 +60,7 @@ void compare(const Source& s, const Target& target, std::size_t first, std::size
 TEST(Prefilter, LevelsAreBruteForcesWithinTheTolerance) {
   std::size_t which = 0;
   for (const Source& s : kSources) {
-    compare(s, kTargets[which % 4], which % 3, 3);
+    compare(s, kTargets[which % 4], which % 3, 3 * kThin);
     ++which;
   }
 }
