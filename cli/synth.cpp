@@ -24,7 +24,7 @@ void Synth::run() const {
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
-  MapShape shape = parse_option("--to", [&] { return parse_map_shape(to); });
+  MapShape shape = parse_option("--to", [&] { return parse_map_shape_for(out, to); });
   check_output(out, shape, write);
   const std::string text = !size.empty() ? size : shape.parameterization.charts() == 1 ? "1024" : "256";
   const ChartSize chart = parse_chart_size("--size", text, shape.parameterization);
