@@ -29,6 +29,11 @@ inline Monitor part_of(const Monitor& whole, double from, double to) {
   return part;
 }
 
+/// The same work, silent.
+inline Monitor without_progress(const Monitor& monitor) {
+  return {nullptr, monitor.cancelled};
+}
+
 /// body(i) for i in 0…count−1 on TBB's workers; `monitor` is told and asked after each.
 template <class Body>
 void parallel_for(int count, const Body& body, const Monitor& monitor = {}) {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "welkin/base/cpu.h"
 #include "welkin/lobe/kernels.h"
@@ -19,39 +20,35 @@ LegendreSums best_legendre_sums() {
   return legendre_sums_baseline();
 }
 
-/// Places and weights, filled up with weights of 0 to a whole number of kernel steps.
-struct Half {
-  std::vector<double> s, weights;
-
-  void add(double place, double weight) {
-    s.push_back(place);
-    weights.push_back(weight);
-  }
-  std::vector<double> sums(int degree) {
-    while (s.size() % kLanes != 0) add(0, 0);
-    std::vector<double> result(static_cast<std::size_t>(degree) + 1, 0.0);
-    best_legendre_sums()(s.data(), weights.data(), s.size(), degree, result.data());
-    return result;
-  }
-};
-
 }  // namespace
+
+std::vector<double> legendre_sums(std::vector<double> s, std::vector<double> weights, int degree) {
+  // Filled up with weights of 0 to a whole number of kernel steps.
+  const std::size_t whole = (s.size() + kLanes - 1) / kLanes * kLanes;
+  s.resize(whole);
+  weights.resize(whole);
+  std::vector<double> sums(static_cast<std::size_t>(degree) + 1, 0.0);
+  best_legendre_sums()(s.data(), weights.data(), whole, degree, sums.data());
+  return sums;
+}
 
 std::vector<double> zonal_coefficients(const AnyLobe& lobe, int degree) {
   assert(degree >= 0);
   if (lobe.mirror()) return std::vector<double>(static_cast<std::size_t>(degree) + 1, 1.0);
   const LobeNodes nodes = lobe_nodes(lobe, degree);
   // P_l(−t) = (−1)^l P_l(t) brings the far half of the sphere to s ≤ 1, where the recurrence is precise.
-  Half front, behind;
+  std::vector<double> front, front_weights, behind, behind_weights;
   for (std::size_t i = 0; i < nodes.s.size(); ++i) {
     if (nodes.s[i] <= 1) {
-      front.add(nodes.s[i], nodes.weights[i]);
+      front.push_back(nodes.s[i]);
+      front_weights.push_back(nodes.weights[i]);
     } else {
-      behind.add(nodes.s_behind[i], nodes.weights[i]);
+      behind.push_back(nodes.s_behind[i]);
+      behind_weights.push_back(nodes.weights[i]);
     }
   }
-  std::vector<double> coefficients = front.sums(degree);
-  const std::vector<double> far = behind.sums(degree);
+  std::vector<double> coefficients = legendre_sums(std::move(front), std::move(front_weights), degree);
+  const std::vector<double> far = legendre_sums(std::move(behind), std::move(behind_weights), degree);
   for (std::size_t l = 0; l < coefficients.size(); ++l) coefficients[l] += l % 2 == 0 ? far[l] : -far[l];
   const double all = coefficients[0];
   for (double& coefficient : coefficients) coefficient /= all;

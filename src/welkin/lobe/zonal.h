@@ -6,6 +6,9 @@
 
 namespace welkin::lobe {
 
+/// Σ_i weights[i] P_l(1 − s[i]) for l = 0 … degree; 0 ≤ s ≤ 1. In SIMD, keeping the precision of small s.
+std::vector<double> legendre_sums(std::vector<double> s, std::vector<double> weights, int degree);
+
 /// Zonal coefficients of the normalised lobe, degrees 0 … degree: λ_l = 2π ∫ w(s) P_l(1 − s) ds / ∫ w dω, so
 /// λ_0 = 1. Convolving a map with the lobe multiplies its harmonics of degree l by λ_l (Funk–Hecke). Absolute
 /// error 1e-10. Gauss–Legendre over panels that shrink toward the axis and end at the lobe's breakpoints; a

@@ -33,21 +33,8 @@ void Batch::locate(int target_chart, std::size_t count) {
     v[i] = v[count - 1];
   }
   t.kernels().to_sphere(t.self(), target_chart, u, v, x_, y_, z_, count);
-  if (job_.turned) rotate(sphere::padded(count));
+  if (job_.turned) multiply(job_.to_source, x_, y_, z_, sphere::padded(count));
   s.kernels().from_sphere(s.self(), x_, y_, z_, chart, source_u, source_v, count);
-}
-
-void Batch::rotate(std::size_t count) {
-  float f[3][3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) f[i][j] = static_cast<float>(job_.to_source.rows[i][j]);
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = x_[i], y = y_[i], z = z_[i];
-    x_[i] = f[0][0] * x + f[0][1] * y + f[0][2] * z;
-    y_[i] = f[1][0] * x + f[1][1] * y + f[1][2] * z;
-    z_[i] = f[2][0] * x + f[2][1] * y + f[2][2] * z;
-  }
 }
 
 void Batch::weigh(int target_chart, std::size_t count) {

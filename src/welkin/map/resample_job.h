@@ -50,7 +50,6 @@ class Batch {
   const float* fetch_texels(Fetch kernel, const LevelView& level, int target_chart, std::size_t count);
 
  private:
-  void rotate(std::size_t count);
   void fill_where_zero(const float* mask, std::size_t count);
 
   const ResampleJob& job_;

@@ -72,4 +72,17 @@ Matrix3 rotation_from_quaternion(double w, double x, double y, double z) {
             {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}}};
 }
 
+void multiply(const Matrix3& m, float* x, float* y, float* z, std::size_t count) {
+  float f[3][3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) f[i][j] = static_cast<float>(m.rows[i][j]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const float a = x[i], b = y[i], c = z[i];
+    x[i] = f[0][0] * a + f[0][1] * b + f[0][2] * c;
+    y[i] = f[1][0] * a + f[1][1] * b + f[1][2] * c;
+    z[i] = f[2][0] * a + f[2][1] * b + f[2][2] * c;
+  }
+}
+
 }  // namespace welkin

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "welkin/math/vec.h"
 
@@ -32,6 +33,9 @@ Vec3<T> operator*(const Matrix3& m, const Vec3<T>& v) {
   };
   return {row(0), row(1), row(2)};
 }
+
+/// Multiplies `count` vectors by m, in float.
+void multiply(const Matrix3& m, float* x, float* y, float* z, std::size_t count);
 
 /// The rotation that turns the world by `yaw` about +Y, after `pitch` about +X, after `roll` about +Z;
 /// degrees, right-handed (positive yaw takes +Z to +X).

@@ -200,11 +200,7 @@ class Harmonics {
     for (int lane = 0; lane < 16; ++lane) {
       const int north = pack * 8 + lane % 8;
       if (north >= level.latitudes.count) continue;
-      float* row = chart.row(lane < 8 ? north : level.grid.height - 1 - north) + first_ + c;
-      for (int x = 0; x < level.grid.width; ++x) {
-        row[static_cast<std::ptrdiff_t>(x) * chart.channels] =
-            lanes[static_cast<std::ptrdiff_t>(x) * 16 + lane];
-      }
+      store_lane(lanes, lane, grid, chart.row(lane < 8 ? north : level.grid.height - 1 - north) + first_ + c);
     }
   }
 
@@ -258,24 +254,7 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
       near[group.levels[i].harmonic] = &near_grids.back()[i];
   }
 
-  constexpr int kColumns = 64;
-  struct Strip {
-    std::size_t level;
-    int first, last;
-  };
-  std::vector<Strip> strips;
-  for (std::size_t i = 0; i < grids.size(); ++i) {
-    const int half = grids[i].width() / 2;
-    for (int x = 0; x < half; x += kColumns) strips.push_back({i, x, std::min(half, x + kColumns)});
-  }
-  parallel_for(
-      static_cast<int>(strips.size()),
-      [&](int k) {
-        const Strip& strip = strips[static_cast<std::size_t>(k)];
-        to_spline_columns(grids[strip.level], strip.first, strip.last);
-      },
-      part_of(monitor, 0.7, 0.72));
-  for (Level& grid : grids) fill_latlong_border(grid);
+  to_splines(grids, part_of(monitor, 0.7, 0.72));
 
   // Sums of light that is never negative are held there. Whether it is, is looked up when it first matters.
   std::once_flag looked;
@@ -289,9 +268,12 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
     std::size_t level;
     int chart, row, rows;
   };
+  std::vector<LevelTexels> texels;
   std::vector<Band> bands;
   for (std::size_t i = 0; i < t.harmonic.size(); ++i) {
-    const Map& map = results[static_cast<std::size_t>(t.harmonic[i].index)];
+    Map& map = results[static_cast<std::size_t>(t.harmonic[i].index)];
+    const Matrix3 to_source = source.orientation * transpose(map.orientation);
+    texels.emplace_back(t.harmonic[i], grids[i], near[i], bright, to_source, hold_positive, map);
     const int rows = std::max(1, 2048 / map.width());
     for (int chart = 0; chart < map.charts(); ++chart) {
       for (int y = 0; y < map.height(); y += rows)
@@ -302,11 +284,7 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
       static_cast<int>(bands.size()),
       [&](int k) {
         const Band& band = bands[static_cast<std::size_t>(k)];
-        Map& result = results[static_cast<std::size_t>(t.harmonic[band.level].index)];
-        const Matrix3 to_source = source.orientation * transpose(result.orientation);
-        LevelTexels(t.harmonic[band.level], grids[band.level], near[band.level], bright, to_source,
-                    hold_positive, result)
-            .rows(band.chart, band.row, band.rows);
+        texels[band.level].rows(band.chart, band.row, band.rows);
       },
       part_of(monitor, 0.72, 1));
   return std::move(moments.reduced);

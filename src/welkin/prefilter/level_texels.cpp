@@ -30,7 +30,7 @@ void LevelTexels::rows(int chart, int from, int rows) const {
       v[i] = (static_cast<float>(from + k / width) + 0.5f) / static_cast<float>(height);
     }
     p.kernels().to_sphere(p.self(), chart, u, v, x, y, z, count);
-    turn(x, y, z, sphere::padded(count));
+    if (turned_) multiply(to_source_, x, y, z, sphere::padded(count));
     grid_shape_.kernels().from_sphere(grid_shape_.self(), x, y, z, at_chart, at_u, at_v, count);
     fetch_(view_, at_chart, at_u, at_v, values.data(), count);
     if (near_ != nullptr) {
@@ -54,20 +54,6 @@ void LevelTexels::rows(int chart, int from, int rows) const {
                   run * static_cast<std::size_t>(n) * sizeof(float));
       i += run;
     }
-  }
-}
-
-void LevelTexels::turn(float* x, float* y, float* z, std::size_t count) const {
-  if (to_source_ == Matrix3{}) return;
-  float f[3][3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) f[i][j] = static_cast<float>(to_source_.rows[i][j]);
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const float a = x[i], b = y[i], c = z[i];
-    x[i] = f[0][0] * a + f[0][1] * b + f[0][2] * c;
-    y[i] = f[1][0] * a + f[1][1] * b + f[1][2] * c;
-    z[i] = f[2][0] * a + f[2][1] * b + f[2][2] * c;
   }
 }
 

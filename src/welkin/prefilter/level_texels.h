@@ -23,6 +23,7 @@ class LevelTexels {
         bright_(bright),
         grid_shape_(sphere::AnyParameterization::make("latlong")),
         to_source_(to_source),
+        turned_(!(to_source == Matrix3{})),
         hold_positive_(hold_positive),
         result_(result),
         masses_(bright.mass) {
@@ -33,7 +34,6 @@ class LevelTexels {
   void rows(int chart, int from, int rows) const;
 
  private:
-  void turn(float* x, float* y, float* z, std::size_t count) const;
   void add_bright(const float* x, const float* y, const float* z, float* values, std::size_t count) const;
 
   const HarmonicLevel& level_;
@@ -43,6 +43,7 @@ class LevelTexels {
   const prefilter::BrightPoints& bright_;
   sphere::AnyParameterization grid_shape_;
   Matrix3 to_source_;
+  bool turned_;  ///< to_source_ is not the identity
   const std::function<bool()>& hold_positive_;
   Map& result_;
   std::vector<float> masses_;  ///< the bright points', times the lobe's scale

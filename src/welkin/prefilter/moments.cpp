@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 
+#include "welkin/lobe/panels.h"
 #include "welkin/prefilter/fft.h"
 #include "welkin/prefilter/kernels.h"
+#include "welkin/prefilter/lagrange.h"
 #include "welkin/prefilter/scatter.h"
 
 namespace welkin::prefilter {
@@ -52,14 +53,16 @@ void spread(const Map& map, const MomentPlan& plan, Moments& moments, const Moni
       monitor);
 }
 
-/// Weights of Lagrange's polynomials through the nodes −2 … 3 at x, 0 ≤ x ≤ 1.
-void lagrange6(double x, double* w) {
-  for (int k = 0; k < 6; ++k) {
-    w[k] = 1;
-    for (int other = 0; other < 6; ++other) {
-      if (other != k) w[k] *= (x - (other - 2)) / (k - other);
-    }
-  }
+/// Whether the map's rows can be spread and transformed as they are.
+bool has_plain_rows(const AnyParameterization& source, ChartSize size) {
+  return source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width);
+}
+
+/// How many columns of the picture can be one of the masses', a power of two, so that `least` are left.
+int columns_per_mass(int width, int least) {
+  int columns = 1;
+  while (width % (4 * columns) == 0 && width / (2 * columns) >= least) columns *= 2;
+  return columns;
 }
 
 }  // namespace
@@ -75,10 +78,7 @@ Moments::Moments(int w, int h, int n)
 }
 
 RowSpread::RowSpread(int columns, int picture_rows, int rows) {
-  // Gauss's rule of four points.
-  constexpr double kPlaces[4] = {-0.861136311594053, -0.339981043584856, 0.339981043584856,
-                                 0.861136311594053};
-  constexpr double kWeights[4] = {0.347854845137454, 0.652145154862546, 0.652145154862546, 0.347854845137454};
+  const lobe::Rule rule = lobe::gauss_legendre(4);
   std::vector<std::vector<Tap>> lists(static_cast<std::size_t>(rows));
   const auto add = [&](int to, int from, double weight) {
     // Past a pole the grid goes on down the opposite meridian; equally, that meridian's picture comes over
@@ -107,11 +107,12 @@ RowSpread::RowSpread(int columns, int picture_rows, int rows) {
     for (double from = begin; from < end - 1e-12;) {
       const double node = std::floor(from - 0.5 + 1e-12) + 0.5;
       const double to = std::min(end, node + 1);
-      for (int k = 0; k < 4; ++k) {
-        const double y = (from + to) / 2 + kPlaces[k] * (to - from) / 2;
+      for (std::size_t k = 0; k < rule.places.size(); ++k) {
+        const double y = (from + to) / 2 + rule.places[k] * (to - from) / 2;
         double w[6];
         lagrange6(y - node, w);
-        const double measure = std::sin(y * step) * step * (to - from) / 2 * kWeights[k] * 2 * kPi / columns;
+        const double measure =
+            std::sin(y * step) * step * (to - from) / 2 * rule.weights[k] * 2 * kPi / columns;
         for (int j = 0; j < 6; ++j) {
           sums[static_cast<std::size_t>(static_cast<int>(node - 0.5) - 2 + j - first)] += measure * w[j];
         }
@@ -143,6 +144,7 @@ ColumnSpread::ColumnSpread(int count) : columns(count) {
     if (x < 1) return (1 - x) * (1 + x) * (2 - x) / 2;
     return x < 2 ? (1 - x) * (2 - x) * (3 - x) / 6 : 0.0;
   };
+  const lobe::Rule rule = lobe::gauss_legendre(3);
   reach = (3 * columns + 1) / 2;
   for (int i = -reach; i < columns + reach; ++i) {
     const double middle = (i + 0.5) / columns - 0.5, half = 0.5 / columns;
@@ -150,21 +152,25 @@ ColumnSpread::ColumnSpread(int count) : columns(count) {
     // itself.
     double sum = 0;
     for (double side : {-0.5, 0.5}) {
-      for (const auto& [place, weight] : {std::pair(-0.774596669241483, 5.0 / 18), std::pair(0.0, 8.0 / 18),
-                                          std::pair(0.774596669241483, 5.0 / 18)}) {
-        sum += weight / 2 * kernel(middle + side * half + place * half / 2);
+      for (std::size_t k = 0; k < rule.places.size(); ++k) {
+        sum += rule.weights[k] / 4 * kernel(middle + side * half + rule.places[k] * half / 2);
       }
     }
     along.push_back(static_cast<float>(sum));
   }
 }
 
+ColumnSpread ColumnSpread::boxes() {
+  ColumnSpread spread(1);
+  spread.reach = 0;
+  spread.along = {1.0f};
+  return spread;
+}
+
 MomentPlan::MomentPlan(const AnyParameterization& source, ChartSize size, int degree) {
   const int least = std::max(16, static_cast<int>(1.42 * degree));
   // Columns far wider than what the lobes resolve are no boxes to be done along the row alone.
-  const bool latlong = source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width) &&
-                       (degree <= size.width || size.height <= size.width);
-  if (!latlong) {
+  if (!has_plain_rows(source, size) || (degree > size.width && size.height > size.width)) {
     width = fft_length(std::max(2 * least + least / 4, 64));
     height = width / 2;
     return;
@@ -173,39 +179,29 @@ MomentPlan::MomentPlan(const AnyParameterization& source, ChartSize size, int de
   height = size.height;
   while (height % 2 == 0 && height / 2 >= least) height /= 2;
   if (height % 2 != 0 || height < least) height = (std::max(least, 16) + 1) / 2 * 2;
-  int columns = 1;
-  while (size.width % (4 * columns) == 0 && size.width / (2 * columns) >= 2 * least) columns *= 2;
-  width = size.width / columns;
+  const int per_mass = columns_per_mass(size.width, 2 * least);
+  width = size.width / per_mass;
   // Three points stand for a box within 1e-3 up to an order where they are 2.3/2 radians apart.
   way = degree <= 2.3 * width / (2 * kPi) ? Way::spread_points : Way::spread_boxes;
   rows_per_mass = size.height % height == 0 ? size.height / height : 0;
   rows.emplace_back(size.width, size.height, height);
-  this->columns.emplace_back(columns);
-  if (way == Way::spread_boxes) {
-    this->columns[0].reach = 0;
-    this->columns[0].along = {1.0f};
-    this->columns[0].columns = columns;
-  }
+  // Boxes are columns of the picture: masses of several resolve more orders than the degree.
+  assert(way == Way::spread_points || per_mass == 1);
+  columns.push_back(way == Way::spread_boxes ? ColumnSpread::boxes() : ColumnSpread(per_mass));
 }
 
 MomentPlan MomentPlan::with_rows(const AnyParameterization& source, ChartSize size, int count) {
   MomentPlan plan;
   plan.height = count;
-  if (!(source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width) &&
-        size.height <= size.width)) {
+  if (!has_plain_rows(source, size) || size.height > size.width) {
     plan.width = fft_length(2 * count);
     return plan;
   }
-  int columns = 1;
-  while (size.width % (4 * columns) == 0 && size.width / (2 * columns) >= 3 * count) columns *= 2;
-  plan.width = size.width / columns;
-  plan.way = columns > 1 ? Way::spread_points : Way::spread_boxes;
+  const int per_mass = columns_per_mass(size.width, 3 * count);
+  plan.width = size.width / per_mass;
+  plan.way = per_mass > 1 ? Way::spread_points : Way::spread_boxes;
   plan.rows.emplace_back(size.width, size.height, count);
-  plan.columns.emplace_back(columns);
-  if (columns == 1) {
-    plan.columns[0].reach = 0;
-    plan.columns[0].along = {1.0f};
-  }
+  plan.columns.push_back(per_mass > 1 ? ColumnSpread(per_mass) : ColumnSpread::boxes());
   return plan;
 }
 

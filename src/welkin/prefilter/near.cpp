@@ -72,11 +72,8 @@ void convolve(const NearLevel& level, RowOrders& masses, int first, int channels
               kernels().near_to_rows(level.fft, results.at(0, 2 * c), last, pack, rows, results.step,
                                      results.part, level.turn.data(), memory.data(), memory.data() + size);
           for (int lane = 0; lane < 16; ++lane) {
-            float* row = grid.chart(0).row((lane < 8 ? 0 : rows / 2) + pack * 8 + lane % 8) + first + c;
-            for (int x = 0; x < level.grid.width; ++x) {
-              row[static_cast<std::ptrdiff_t>(x) * grid.channels()] =
-                  lanes[static_cast<std::ptrdiff_t>(x) * 16 + lane];
-            }
+            store_lane(lanes, lane, grid,
+                       grid.chart(0).row((lane < 8 ? 0 : rows / 2) + pack * 8 + lane % 8) + first + c);
           }
         }
       },
@@ -87,8 +84,7 @@ void convolve(const NearLevel& level, RowOrders& masses, int first, int channels
 
 std::vector<Level> run_near(const NearGroup& group, const Map& source, const Monitor& monitor) {
   const Moments moments = moments_of(source, group.moments, part_of(monitor, 0, 0.2));
-  Monitor quiet;
-  quiet.cancelled = monitor.cancelled;
+  const Monitor quiet = without_progress(monitor);
   int last = 0, reach = 0;
   std::vector<Level> grids;
   for (const NearLevel& level : group.levels) {
@@ -105,15 +101,7 @@ std::vector<Level> run_near(const NearGroup& group, const Map& source, const Mon
         monitor.progress(0.2 + 0.8 * static_cast<double>(i + 1) / static_cast<double>(grids.size()));
     }
   }
-  constexpr int kColumns = 64;
-  for (Level& grid : grids) {
-    const int half = grid.width() / 2;
-    parallel_for(
-        (half + kColumns - 1) / kColumns,
-        [&](int strip) { to_spline_columns(grid, strip * kColumns, std::min(half, (strip + 1) * kColumns)); },
-        monitor);
-    fill_latlong_border(grid);
-  }
+  to_splines(grids, quiet);
   return grids;
 }
 

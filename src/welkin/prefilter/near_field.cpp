@@ -1,12 +1,15 @@
 #include "welkin/prefilter/near_field.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "welkin/base/parallel.h"
+#include "welkin/lobe/panels.h"
+#include "welkin/lobe/zonal.h"
 #include "welkin/math/scalar.h"
+#include "welkin/prefilter/sampled_lobe.h"
 
 namespace welkin::prefilter {
 namespace {
@@ -14,18 +17,12 @@ namespace {
 /// Places and weights of Gauss's rule of 16 points in each of `panels` parts of 0 … end.
 struct Nodes {
   Nodes(double end, int panels) {
-    static const std::array<double, 8> kPlaces{0.0950125098376374, 0.2816035507792589, 0.4580167776572274,
-                                               0.6178762444026438, 0.7554044083550030, 0.8656312023878318,
-                                               0.9445750230732326, 0.9894009349916499};
-    static const std::array<double, 8> kWeights{0.1894506104550685, 0.1826034150449236, 0.1691565193950025,
-                                                0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
-                                                0.0622535239386479, 0.0271524594117541};
+    static const lobe::Rule rule = lobe::gauss_legendre(16);
     const double half = end / (2 * panels);
     for (int panel = 0; panel < panels; ++panel) {
-      for (std::size_t i = 0; i < 16; ++i) {
-        const std::size_t k = i < 8 ? 7 - i : i - 8;
-        place.push_back((2 * panel + 1 + (i < 8 ? -kPlaces[k] : kPlaces[k])) * half);
-        weight.push_back(kWeights[k] * half);
+      for (std::size_t i = 0; i < rule.places.size(); ++i) {
+        place.push_back((2 * panel + 1 + rule.places[i]) * half);
+        weight.push_back(rule.weights[i] * half);
       }
     }
   }
@@ -57,35 +54,11 @@ std::vector<double> cosine_sums(const std::vector<double>& place, const std::vec
   return sums;
 }
 
-/// A normalised lobe sampled once, for the many looks at it: linear between values at even steps of c/(c +
-/// width) of the chord c.
-class Samples {
- public:
-  Samples(const lobe::AnyLobe& lobe, double width) : width_(width), last_(2 / (2 + width)) {
-    const double scale = 1 / lobe.integral();
-    for (int i = 0; i <= kSteps + 1; ++i) {
-      const double part = std::min(last_, last_ * i / kSteps),
-                   chord = std::min(2.0, width * part / (1 - part));
-      values_.push_back(scale * lobe.weight(chord * chord / 2));
-    }
-  }
-  double at_chord(double chord) const {
-    const double place = std::min(1.0, chord / (chord + width_) / last_) * kSteps;
-    const std::size_t below = static_cast<std::size_t>(place);
-    return values_[below] + (place - static_cast<double>(below)) * (values_[below + 1] - values_[below]);
-  }
-
- private:
-  static constexpr int kSteps = 1 << 14;
-  double width_, last_;
-  std::vector<double> values_;
-};
-
 /// The near part as a function of s, normalised with the lobe: linear between values at even steps of the
 /// chord, off by 1e-6 of the largest.
 class Near {
  public:
-  Near(const Samples& lobe, double sharpness, double exponent, double core)
+  Near(const ChordSamples& lobe, double sharpness, double exponent, double core)
       : sharpness_(sharpness),
         core_(core),
         last_(exponent / sharpness),
@@ -135,16 +108,7 @@ std::vector<double> zonal_of(const Near& near, double width, int degree) {
       weight.push_back(nodes.weight[i] * 2 * kPi * std::sin(angle) * near(s.back()));
     }
   }
-  std::vector<double> sums(static_cast<std::size_t>(degree) + 1);
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    double p = 1, difference = 0;
-    for (int l = 0; l <= degree; ++l) {
-      sums[static_cast<std::size_t>(l)] += weight[i] * p;
-      difference = (l * difference - (2 * l + 1) * s[i] * p) / (l + 1);
-      p += difference;
-    }
-  }
-  return sums;
+  return lobe::legendre_sums(std::move(s), std::move(weight), degree);
 }
 
 /// How a lobe is split: S = degree²/2X, and the near part ends at s = X/S.
@@ -154,7 +118,7 @@ struct Split {
 
 /// The smallest exponent X with which neither cut matters; or the one with the best of cores, where the
 /// lobe's own core isn't of the form that makes the far part smooth.
-Split split_of(const Samples& lobe, double width, const std::vector<double>& zonal, int degree,
+Split split_of(const ChordSamples& lobe, double width, const std::vector<double>& zonal, int degree,
                double tolerance) {
   const double half = (1 - std::cos(width)) / (std::sqrt(2.0) - 1);
   // Degrees beyond the last come from the near part alone: relative to what the lobe has there.
@@ -186,7 +150,7 @@ NearField::NearField(const lobe::AnyLobe& lobe, const std::vector<double>& zonal
     : rows(row_count) {
   assert(rows % 16 == 0);
   const double core = lobe.width();
-  const Samples samples(lobe, core);
+  const ChordSamples samples(lobe, core, 1 << 14, 1 / lobe.integral());
   const Split split = split_of(samples, core, zonal, degree, tolerance);
   const Near near(samples, static_cast<double>(degree) * degree / (2 * split.exponent), split.exponent,
                   split.core);

@@ -7,6 +7,7 @@
 #include "welkin/lobe/energy.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/resample.h"
+#include "welkin/prefilter/source_faults.h"
 #include "welkin/prefilter/spline_grid.h"
 #include "welkin/prefilter/tables.h"
 #include "welkin/prefilter/widen.h"
@@ -35,20 +36,17 @@ double mean_texel(const sphere::AnyParameterization& p, ChartSize size) {
 
 /// Throws for what can't be convolved.
 void check_values(const Map& source, const Monitor& monitor) {
-  constexpr float kLargest = 1e30f;
   std::atomic<bool> fine{true};
-  Monitor quiet;
-  quiet.cancelled = monitor.cancelled;
   parallel_for(
       source.charts() * source.height(),
       [&](int i) {
         const float* row = source.level.chart(i / source.height()).row(i % source.height());
         int wrong = 0;
         for (int x = 0; x < source.width() * source.channels(); ++x)
-          wrong += std::fabs(row[x]) <= kLargest ? 0 : 1;
+          wrong += std::fabs(row[x]) <= kMostRadiance ? 0 : 1;
         if (wrong > 0) fine = false;
       },
-      quiet);
+      without_progress(monitor));
   if (!fine) throw Error("prefilter: the map has values that are NaN, infinite, or beyond ±1e30");
 }
 
@@ -59,10 +57,6 @@ Filter mirror_filter(const PrefilterOptions& options, const Map& from,
   const double source = mean_texel(from.parameterization, {from.width(), from.height()});
   return mean_texel(target, size) < 1.5 * source ? Filter::bilinear : Filter::automatic;
 }
-
-}  // namespace
-
-namespace {
 
 /// cos, sin of the shift between the columns of two grids, for each order; times the B-spline's transform
 /// along the row and the 6 of to_spline_columns.
@@ -94,7 +88,7 @@ constexpr int kMostDegree = 480;
 /// Whether a lobe is to be split into near and far: too many degrees, and most of it near its axis. A narrow
 /// ring isn't.
 bool is_split(const WidenedLobe& lobe) {
-  return static_cast<int>(lobe.zonal.size()) - 1 > kMostDegree && lobe::angle_holding(lobe.lobe, 0.5) < 0.2;
+  return lobe.degree() > kMostDegree && lobe::angle_holding(lobe.lobe, 0.5) < 0.2;
 }
 
 /// Rows that a near part is done on. They resolve what is left of the lobe at the scale of the texel, or all
@@ -162,20 +156,26 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
   const auto texel_of = [&](std::size_t i) {
     return std::max(source_texel, mean_texel(target, tables->levels[i].size));
   };
-  const auto rows_of = [&](std::size_t i, int degree) {
-    return near_rows(source.parameterization, texel_of(i), degree);
+  struct Choice {
+    WidenedLobe lobe;
+    int near_rows;  ///< 0 when the lobe isn't split
   };
-  std::vector<std::optional<WidenedLobe>> lobes(tables->levels.size());
-  for (std::size_t i = 0; i < lobes.size(); ++i) {
+  std::vector<std::optional<Choice>> choices(tables->levels.size());
+  for (std::size_t i = 0; i < choices.size(); ++i) {
     const PrefilterLevel& level = tables->levels[i];
     if (level.lobe.mirror()) continue;
-    lobes[i] = widen(level.lobe, texel_of(i), options.tolerance / 5);
-    const int degree = static_cast<int>(lobes[i]->zonal.size()) - 1;
-    tables->degree = std::max(tables->degree, is_split(*lobes[i]) ? far_degree(rows_of(i, degree)) : degree);
+    choices[i] = {widen(level.lobe, texel_of(i), options.tolerance / 5), 0};
+    Choice& choice = *choices[i];
+    if (is_split(choice.lobe)) {
+      choice.near_rows = near_rows(source.parameterization, texel_of(i), choice.lobe.degree());
+      check_near_size(choice.near_rows, source.channels);
+    }
+    tables->degree =
+        std::max(tables->degree, choice.near_rows > 0 ? far_degree(choice.near_rows) : choice.lobe.degree());
   }
   if (tables->degree > 0) tables->moments.emplace_back(source.parameterization, source.size, tables->degree);
-  for (std::size_t i = 0; i < lobes.size(); ++i) {
-    if (!lobes[i]) {
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (!choices[i]) {
       tables->methods.push_back({"resample", 0, {}, tables->levels[i].lobe, 0, false});
       if (tables->degree > 0 && options.mirror_filter == Filter::automatic) {
         MomentPlan& moments = tables->moments[0];
@@ -187,18 +187,17 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
       }
       continue;
     }
-    const WidenedLobe& lobe = *lobes[i];
-    const int degree = static_cast<int>(lobe.zonal.size()) - 1, width = tables->moments[0].width;
-    if (!is_split(lobe)) {
+    const auto& [lobe, rows] = *choices[i];
+    const int width = tables->moments[0].width;
+    if (rows == 0) {
       tables->harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(i), width);
       tables->methods.push_back(
-          {"harmonics", degree, tables->harmonic.back().grid, lobe.lobe, lobe.sigma, false});
+          {"harmonics", lobe.degree(), tables->harmonic.back().grid, lobe.lobe, lobe.sigma, false});
       continue;
     }
-    const int rows = rows_of(i, degree);
-    check_near_size(rows, source.channels);
-    auto group = std::find_if(tables->near.begin(), tables->near.end(),
-                              [&](const NearGroup& each) { return each.moments.height == rows; });
+    auto group =
+        std::find_if(tables->near.begin(), tables->near.end(),
+                     [height = rows](const NearGroup& each) { return each.moments.height == height; });
     if (group == tables->near.end()) {
       group = tables->near.emplace(tables->near.end(), source, rows, 4 * rows);
     }
@@ -242,11 +241,11 @@ std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) c
   }
   if (reduced) fill_latlong_border(reduced->level);
   for (std::size_t i = 0; i < results.size(); ++i) {
-    if (t.methods[i].name != "resample") continue;
+    if (!t.levels[i].lobe.mirror()) continue;
     const Map& from = reduced && t.methods[i].reduced ? *reduced : source;
     ResampleOptions how;
     how.filter = mirror_filter(t.options, from, results[i].parameterization, t.levels[i].size);
-    how.monitor.cancelled = monitor.cancelled;
+    how.monitor = without_progress(monitor);
     resample(from, results[i], how);
   }
   if (t.options.scale == LobeScale::integral) {

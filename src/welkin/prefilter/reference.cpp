@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "welkin/base/parallel.h"
+#include "welkin/prefilter/sampled_lobe.h"
 
 namespace welkin {
 namespace {
@@ -117,37 +119,21 @@ double PrefilterReference::near_texel(const lobe::AnyLobe& lobe, const Vec3d& di
 
 namespace {
 
-/// A lobe's weights for arrays of s. Tables are slow to look up: they are sampled again, 2¹⁶ times, evenly in
-/// c/(c + width) of the chord c, which changes them by less than 1e-7 of their largest value where they are
-/// smooth.
+/// A lobe's weights for arrays of s. Tables are slow to look up: they are sampled again, 2¹⁶ times, which
+/// changes them by less than 1e-7 of their largest value where they are smooth.
 class Weights64 {
  public:
   explicit Weights64(const lobe::AnyLobe& lobe) : lobe_(lobe) {
-    if (lobe.name() != "table") return;
-    core_ = lobe.width();
-    last_ = 2 / (2 + core_);
-    for (int i = 0; i <= kSteps + 1; ++i) {
-      const double part = std::min(last_, last_ * i / kSteps),
-                   chord = std::min(2.0, core_ * part / (1 - part));
-      samples_.push_back(lobe.weight(chord * chord / 2));
-    }
+    if (lobe.name() == "table") samples_.emplace(lobe, lobe.width(), 1 << 16);
   }
   void operator()(const double* s, double* weights, std::size_t count) const {
-    if (samples_.empty()) return lobe_.weights64(s, weights, count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double chord = std::sqrt(2 * s[i]),
-                   place = std::min(1.0, chord / (chord + core_) / last_) * kSteps;
-      const std::size_t below = static_cast<std::size_t>(place);
-      weights[i] =
-          samples_[below] + (place - static_cast<double>(below)) * (samples_[below + 1] - samples_[below]);
-    }
+    if (!samples_) return lobe_.weights64(s, weights, count);
+    for (std::size_t i = 0; i < count; ++i) weights[i] = samples_->at_chord(std::sqrt(2 * s[i]));
   }
 
  private:
-  static constexpr int kSteps = 1 << 16;
   const lobe::AnyLobe& lobe_;
-  double core_ = 1, last_ = 1;
-  std::vector<double> samples_;
+  std::optional<prefilter::ChordSamples> samples_;
 };
 
 }  // namespace

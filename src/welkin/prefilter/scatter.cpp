@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "welkin/prefilter/lagrange.h"
+
 namespace welkin::prefilter {
 namespace {
 
@@ -31,8 +33,8 @@ class Deposit {
     // x and y are above −2: truncating rounds down.
     const int left = static_cast<int>(x + 2) - 2, top = static_cast<int>(y + 2) - 2;
     float wx[6], wy[6];
-    weights(x - static_cast<float>(left), wx);
-    weights(y - static_cast<float>(top), wy);
+    lagrange6(x - static_cast<float>(left), wx);
+    lagrange6(y - static_cast<float>(top), wy);
     const int column = std::clamp(left, -1, width_ - 1) - 2 + kMargin;
     const int row = std::clamp(top, -1, height_ - 1) - 2 + kMargin;
     float* to = masses_.data() + static_cast<std::size_t>(row) * stride_ +
@@ -70,17 +72,6 @@ class Deposit {
 
  private:
   static constexpr int kMargin = 3;
-
-  /// For the points −2 … 3 about a fraction f.
-  static void weights(float f, float* w) {
-    const float a = f + 2, b = f + 1, c = f, d = f - 1, e = f - 2, g = f - 3;
-    w[0] = -b * c * d * e * g * (1.0f / 120);
-    w[1] = a * c * d * e * g * (1.0f / 24);
-    w[2] = -a * b * d * e * g * (1.0f / 12);
-    w[3] = a * b * c * e * g * (1.0f / 12);
-    w[4] = -a * b * c * d * g * (1.0f / 24);
-    w[5] = a * b * c * d * e * (1.0f / 120);
-  }
 
   float* at(int x, int y) {
     return masses_.data() + static_cast<std::size_t>(y + kMargin) * stride_ +
@@ -139,7 +130,8 @@ std::vector<float> offsets_of(double texel, double step) {
 /// Deposits rows of any map.
 class Scatter {
  public:
-  Scatter(const Map& map, int height) : map_(map), grid_(AnyParameterization::make("latlong")) {
+  Scatter(const Map& map, int height)
+      : map_(map), full_(map.parameterization.full_charts()), grid_(AnyParameterization::make("latlong")) {
     const double step = kPi / height;
     const TexelSides texel = largest_texel(map.parameterization, map.width(), map.height());
     across_ = offsets_of(texel.across, step);
@@ -189,7 +181,7 @@ class Scatter {
       const double points = static_cast<double>(s.across_.size()) * static_cast<double>(s.down_.size());
       const float area = static_cast<float>(1 / (points * width * height));
       for (std::size_t i = 0; i < count; ++i) weight[i] = std::max(weight[i], 0.0f) * area;
-      if (p.full_charts()) return;
+      if (s.full_) return;
       p.kernels().valid(p.self(), chart, u, v, mask, count);
       for (std::size_t i = 0; i < count; ++i) weight[i] = mask[i] > 0 ? weight[i] : 0.0f;
     }
@@ -198,6 +190,7 @@ class Scatter {
   };
 
   const Map& map_;
+  bool full_;
   AnyParameterization grid_;
   std::vector<float> across_, down_;  ///< places of the points along the sides of a texel, 0 … 1
 };

@@ -49,6 +49,33 @@ void to_spline_columns(Level& grid, int first, int last) {
   }
 }
 
+void to_splines(std::span<Level> grids, const Monitor& monitor) {
+  constexpr int kColumns = 64;
+  struct Strip {
+    std::size_t grid;
+    int first, last;
+  };
+  std::vector<Strip> strips;
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    const int half = grids[i].width() / 2;
+    for (int x = 0; x < half; x += kColumns) strips.push_back({i, x, std::min(half, x + kColumns)});
+  }
+  parallel_for(
+      static_cast<int>(strips.size()),
+      [&](int k) {
+        const Strip& strip = strips[static_cast<std::size_t>(k)];
+        to_spline_columns(grids[strip.grid], strip.first, strip.last);
+      },
+      monitor);
+  for (Level& grid : grids) fill_latlong_border(grid);
+}
+
+void store_lane(const float* lanes, int lane, const Level& grid, float* row) {
+  const std::ptrdiff_t channels = grid.channels();
+  for (int x = 0; x < grid.width(); ++x)
+    row[x * channels] = lanes[static_cast<std::ptrdiff_t>(x) * 16 + lane];
+}
+
 void fill_latlong_border(Level& grid) {
   const ImageView<float> chart = grid.chart(0);
   const int width = grid.width(), height = grid.height(), n = grid.channels();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+
+#include "welkin/base/parallel.h"
 #include "welkin/map/map.h"
 
 /// A smooth function on a lat-long grid, read by a cubic spline.
@@ -10,6 +13,12 @@ namespace welkin::prefilter {
 /// Unser, A. Aldroubi & M. Eden, "B-spline signal processing", 1993, part I, eqs. 2.5; poles z = √3 − 2).
 /// Values must have been multiplied by 6; those along rows are coefficients already.
 void to_spline_columns(Level& grid, int first, int last);
+
+/// All columns of all grids, and then their borders. Throws Cancelled.
+void to_splines(std::span<Level> grids, const Monitor& monitor);
+
+/// Fills a row of one channel of a grid: `row` is at its first value. From `lanes`, [column][16].
+void store_lane(const float* lanes, int lane, const Level& grid, float* row);
 
 /// Fills the border of a lat-long level: left and right go around, past a pole rows go on down the opposite
 /// meridian.

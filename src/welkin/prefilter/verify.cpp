@@ -230,13 +230,8 @@ class Verifier {
     const double before = static_cast<double>(done_), part = static_cast<double>(compared.texels.size());
     // A source that shows a part needs a second reference, of the furnace.
     const double all = static_cast<double>(total_) * (source_.parameterization.whole_world() ? 1 : 2);
-    Monitor monitor{nullptr, options_.monitor.cancelled};
-    if (options_.monitor.progress) {
-      monitor.progress = [this, before, part, all](double fraction) {
-        options_.monitor.progress((before + fraction * part) / all);
-      };
-    }
-    reference.evaluate(lobes_[level], compared.directions, wanted, monitor);
+    reference.evaluate(lobes_[level], compared.directions, wanted,
+                       part_of(options_.monitor, before / all, (before + part) / all));
     done_ += compared.texels.size();
     for (double& value : wanted) value *= one_[level];
     return wanted;

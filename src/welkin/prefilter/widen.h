@@ -15,7 +15,8 @@ namespace welkin::prefilter {
 struct WidenedLobe {
   lobe::AnyLobe lobe;         ///< a table when it was widened
   std::vector<double> zonal;  ///< its coefficients, as far as they matter
-  double sigma = 0;           ///< of the Gaussian, radians; 0 when the lobe is as it was
+  int degree() const { return static_cast<int>(zonal.size()) - 1; }
+  double sigma = 0;     ///< of the Gaussian, radians; 0 when the lobe is as it was
   bool smooth = false;  ///< what is left out is nothing, even beside light that is bright beyond measure
 };
 
