@@ -48,7 +48,7 @@ struct Facts {
 std::string full_spec(const lobe::AnyLobe& lobe) {
   if (lobe.parameters().empty()) return lobe.spec();
   std::string text = lobe.name();
-  for (const lobe::Parameter& p : lobe.parameters()) text += "," + p.name + "=" + number_text(p.value);
+  for (const Parameter& p : lobe.parameters()) text += "," + p.name + "=" + number_text(p.value);
   return text;
 }
 

@@ -7,18 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/parameter.h"
+
 /// Rotationally symmetric lobes: how much light from an angle θ off the lobe's axis counts. This room knows
 /// angles only; maps are pre-filtered with lobes in prefilter/.
 namespace welkin::lobe {
-
-/// A number that a lobe can be given: its roughness, its exponent.
-struct Parameter {
-  std::string name;
-  double value = 0;
-  double lowest = 0;
-  double highest = 0;
-  std::string description;
-};
 
 /// `weights` for one instruction set: see AnyLobe::weights. `self` is the lobe's struct.
 using Weights = void (*)(const void* self, const float* s, float* weights, std::size_t count);

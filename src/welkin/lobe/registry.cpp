@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <optional>
 
 #include "welkin/base/cpu.h"
 #include "welkin/base/error.h"
@@ -156,31 +154,9 @@ std::vector<Parameter> settable(const Model& model) {
   return all;
 }
 
-void set_checked(Model& model, const Parameter& parameter, std::optional<double> value,
-                 const std::string& text) {
-  if (!value || !(*value >= parameter.lowest && *value <= parameter.highest)) {
-    throw Error(model.name() + ": " + parameter.name + "=" + text + " is not a number in " +
-                number_text(parameter.lowest) + "…" + number_text(parameter.highest) + " (" +
-                parameter.description + ")");
-  }
-  model.set(parameter.name, *value);
-}
-
 void set_parameter(Model& model, std::string_view assignment) {
-  const std::size_t equals = assignment.find('=');
-  const std::string name(assignment.substr(0, equals));
-  const std::vector<Parameter> known = settable(model);
-  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& p) { return p.name == name; });
-  if (known.empty()) throw Error(model.name() + " takes no parameters, but '" + name + "' was given");
-  if (found == known.end()) {
-    std::vector<std::string> names;
-    for (const Parameter& each : known) names.push_back(each.name);
-    throw Error(unknown_name("parameter of " + model.name(), name, names));
-  }
-  if (equals == std::string_view::npos) throw Error(model.name() + ": write " + name + "=NUMBER");
-  const std::string text(assignment.substr(equals + 1));
-  set_checked(model, *found, text == "inf" ? std::numeric_limits<double>::infinity() : parse_number(text),
-              text);
+  const Parameter parameter = parse_parameter(model.name(), settable(model), assignment);
+  model.set(parameter.name, parameter.value);
 }
 
 std::unique_ptr<Model> model_of(Table table, std::string origin) {
@@ -244,7 +220,8 @@ AnyLobe AnyLobe::with_roughness(double roughness) const {
       std::find_if(known.begin(), known.end(), [](const auto& p) { return p.name == "roughness"; });
   if (found == known.end()) throw Error("the lobe " + name() + " has no roughness");
   std::unique_ptr<Model> made = model_->copy();
-  set_checked(*made, *found, roughness, number_text(roughness));
+  check_range(name(), *found, roughness, number_text(roughness));
+  made->set(found->name, roughness);
   return AnyLobe(std::move(made));
 }
 

@@ -14,6 +14,7 @@ namespace welkin {
 namespace {
 
 namespace fs = std::filesystem;
+using cases::refusal;
 using sphere::AnyParameterization;
 
 class ChainFile : public testing::Test {
@@ -63,15 +64,6 @@ void expect_same(const Chain& a, const Chain& b) {
   ASSERT_EQ(a.levels.size(), b.levels.size());
   for (std::size_t k = 0; k < a.levels.size(); ++k) expect_same(a.levels[k], b.levels[k]);
   EXPECT_EQ(a.notes, b.notes);
-}
-
-std::string refusal(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "done";
 }
 
 TEST(Chain, LevelsHalveDownToOneTexel) {

@@ -19,6 +19,7 @@ namespace welkin {
 namespace {
 
 namespace fs = std::filesystem;
+using cases::refusal;
 using sphere::AnyParameterization;
 
 class ChainTexture : public testing::Test {
@@ -33,15 +34,6 @@ class ChainTexture : public testing::Test {
 
   fs::path folder_;
 };
-
-std::string refusal(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "done";
-}
 
 /// The pictures of a file's level, decoded by the io room alone.
 struct Pictures {

@@ -24,6 +24,16 @@ inline std::string test_name(const ::testing::TestParamInfo<std::string>& info) 
   return name;
 }
 
+/// What the Error says that the work throws; `done` when it throws none.
+inline std::string refusal(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "done";
+}
+
 /// A black map whose charts are about size × size texels, square ones.
 inline Map make_map(const std::string& spec, int size, int channels = 1) {
   const auto p = sphere::AnyParameterization::make(spec);

@@ -8,9 +8,9 @@ namespace welkin {
 namespace {
 
 /// The roughness among a lobe's parameters or their synonyms.
-std::optional<lobe::Parameter> roughness_parameter(const lobe::AnyLobe& lobe) {
+std::optional<Parameter> roughness_parameter(const lobe::AnyLobe& lobe) {
   for (const auto& list : {lobe.parameters(), lobe.synonyms()}) {
-    for (const lobe::Parameter& each : list) {
+    for (const Parameter& each : list) {
       if (each.name == "roughness") return each;
     }
   }
@@ -21,7 +21,7 @@ std::optional<lobe::Parameter> roughness_parameter(const lobe::AnyLobe& lobe) {
 
 std::vector<PrefilterLevel> roughness_levels(const lobe::AnyLobe& lobe, const lobe::RoughnessCurve& curve,
                                              ChartSize finest, int count) {
-  const std::optional<lobe::Parameter> parameter = roughness_parameter(lobe);
+  const std::optional<Parameter> parameter = roughness_parameter(lobe);
   const double lowest = parameter ? parameter->lowest : 0;
   std::vector<PrefilterLevel> levels;
   for (int level = 0; level < count; ++level) {
@@ -36,7 +36,7 @@ std::vector<PrefilterLevel> roughness_levels(const lobe::AnyLobe& lobe, const lo
 }
 
 std::optional<double> roughness_of(const lobe::AnyLobe& lobe) {
-  const std::optional<lobe::Parameter> parameter = roughness_parameter(lobe);
+  const std::optional<Parameter> parameter = roughness_parameter(lobe);
   if (!parameter) return std::nullopt;
   return parameter->value;
 }

@@ -1,8 +1,6 @@
 #include "welkin/sphere/registry.h"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
 
 #include "welkin/base/cpu.h"
 #include "welkin/base/error.h"
@@ -120,27 +118,8 @@ const std::vector<std::unique_ptr<AnyParameterization::Model>>& models() {
 }
 
 void set_parameter(AnyParameterization::Model& model, std::string_view assignment) {
-  const std::size_t equals = assignment.find('=');
-  const std::string name(assignment.substr(0, equals));
-  const std::vector<Parameter> known = model.parameters();
-  const Parameter* parameter = nullptr;
-  std::vector<std::string> names;
-  for (const Parameter& each : known) {
-    names.push_back(each.name);
-    if (each.name == name) parameter = &each;
-  }
-  if (names.empty()) throw Error(model.name() + " takes no parameters, but '" + name + "' was given");
-  if (parameter == nullptr) throw Error(unknown_name("parameter of " + model.name(), name, names));
-  if (equals == std::string_view::npos) throw Error(model.name() + ": write " + name + "=NUMBER");
-  const std::string text(assignment.substr(equals + 1));
-  const std::optional<double> value =
-      text == "inf" ? std::numeric_limits<double>::infinity() : parse_number(text);
-  if (!value || !(*value >= parameter->lowest && *value <= parameter->highest)) {
-    throw Error(model.name() + ": " + name + "=" + text + " is not a number in " +
-                number_text(parameter->lowest) + "…" + number_text(parameter->highest) + " (" +
-                parameter->description + ")");
-  }
-  model.set(name, *value);
+  const Parameter parameter = parse_parameter(model.name(), model.parameters(), assignment);
+  model.set(parameter.name, parameter.value);
 }
 
 }  // namespace

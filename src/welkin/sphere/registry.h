@@ -5,19 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/parameter.h"
 #include "welkin/sphere/kernels.h"
 #include "welkin/sphere/parameterization.h"
 
 namespace welkin::sphere {
-
-/// A number that a parameterization can be given: a field of view, a camera distance.
-struct Parameter {
-  std::string name;
-  double value = 0;
-  double lowest = 0;
-  double highest = 0;
-  std::string description;
-};
 
 /// One of the registered parameterizations, chosen by name at run time, with its parameters. Cheap to copy;
 /// never changes; safe from many threads. Double-precision functions are the reference; `kernels` are the

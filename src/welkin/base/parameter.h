@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace welkin {
+
+/// A number that a parameterization or a lobe can be given: a field of view, a roughness.
+struct Parameter {
+  std::string name;
+  double value = 0;
+  double lowest = 0;
+  double highest = 0;
+  std::string description;
+};
+
+/// Throws Error when the value, written as `text`, is NaN or out of the parameter's range. `owner`: what
+/// takes it.
+void check_range(std::string_view owner, const Parameter& parameter, double value, std::string_view text);
+
+/// The one of `known` that `NAME=NUMBER` names, with its value set; `inf` is a number. Throws Error for what
+/// isn't of that form, for a name that `known` lacks (the nearest is suggested), and for a number out of
+/// range.
+Parameter parse_parameter(std::string_view owner, const std::vector<Parameter>& known,
+                          std::string_view assignment);
+
+}  // namespace welkin
