@@ -43,38 +43,60 @@ std::vector<Shape> whole_worlds() {
   return list;
 }
 
-/// 5e-5 for these small maps; for maps of a usual size `--verify` shows less than 1e-5. Charts that end
-/// within texels, as discs and triangles do, add what four points of a texel miss of its area.
+double furnace(const Map& level, double value) {
+  double worst = 0;
+  for_each_value(level, [&](double each) { worst = std::max(worst, std::fabs(each / value - 1)); });
+  return worst;
+}
+
+/// As near as one asks for: 1e-5 at a tolerance of 2e-5; 5e-5 with rims that reach far along meridians
+/// (mirror balls) and rows of half texels at a pole.
 TEST(PrefilterLaws, AConstantMapStaysConstant) {
-  std::size_t which = 0;
-  for (const Shape& shape : whole_worlds()) {
+  for (const Shape& shape : thinned(whole_worlds())) {
     const Map source = filled(shape.parameterization, shape.width, shape.height, 3.0f);
-    // Every fifth lobe of each.
     std::vector<PrefilterLevel> levels;
-    const std::vector<AnyLobe> all = lobes();
-    for (std::size_t i = which++ % 5; i < all.size(); i += 5 * kThin) levels.push_back({{9, 9}, all[i]});
-    const std::vector<Map> results = prefilter_map(source, AnyParameterization::make("cube"), levels);
+    for (const char* spec : {"ggx,roughness=0.35", "vmf,kappa=40"})
+      levels.push_back({{9, 9}, AnyLobe::make(spec)});
+    PrefilterOptions options;
+    options.tolerance = 2e-5;
+    const std::vector<Map> results =
+        prefilter_map(source, AnyParameterization::make("cube"), levels, options);
     for (std::size_t i = 0; i < levels.size(); ++i) {
-      double worst = 0;
-      for_each_value(results[i], [&](double value) { worst = std::max(worst, std::fabs(value / 3 - 1)); });
-      EXPECT_LT(worst, AnyParameterization::make(shape.parameterization).full_charts() ? 5e-5 : 3e-3)
+      const std::string& name = shape.parameterization;
+      const bool hard = !source.parameterization.full_charts() || name.starts_with("octahedral") ||
+                        name.starts_with("openexr");
+      EXPECT_LT(furnace(results[i], 3), hard ? 5e-5 : 1e-5)
           << shape.parameterization << ' ' << shape.width << ' ' << levels[i].lobe.spec();
     }
   }
 }
 
-/// ∫ of a level that is fine beside the lobe, by its texels, is the source's: 1e-4. More where densities have
-/// kinks within texels (octahedra) or charts end there (discs): the reference's four points a texel are off
-/// by that for so small maps, and it falls with the square of the size.
+/// A lobe alone gets a grid that is just fine enough for its tolerance, 1e-3. Coarse mirror balls, of which
+/// one texel of the rim is the world behind from pole to pole: 2e-3.
+TEST(PrefilterLaws, AConstantMapStaysConstantWithinTheToleranceOfOneLobe) {
+  std::size_t which = 0;
+  const std::vector<AnyLobe> all = lobes();
+  for (const Shape& shape : thinned(whole_worlds())) {
+    const Map source = filled(shape.parameterization, shape.width, shape.height, 3.0f);
+    for (std::size_t i = which++ % 11; i < all.size(); i += 11) {
+      const Map level =
+          std::move(prefilter_map(source, AnyParameterization::make("cube"), {{{9, 9}, all[i]}}).front());
+      EXPECT_LT(furnace(level, 3), 2e-3)
+          << shape.parameterization << ' ' << shape.width << ' ' << all[i].spec();
+    }
+  }
+}
+
+/// ∫ of a level that is fine beside the lobe, by its texels, is the source's: 1e-4.
 TEST(PrefilterLaws, EnergyIsKept) {
-  for (const Shape& shape : {Shape{"latlong", 64, 32},
-                             {"latlong", 31, 21},
-                             {"cube", 16, 16},
-                             {"octahedral", 32, 32},
-                             {"octahedral", 31, 31},
-                             {"paraboloid", 24, 24},
-                             {"fisheye-equidistant", 32, 32},
-                             {"mirror-ball", 32, 32}}) {
+  for (const Shape& shape : thinned<Shape>({{"latlong", 64, 32},
+                                            {"latlong", 31, 21},
+                                            {"cube", 16, 16},
+                                            {"octahedral", 31, 31},
+                                            {"octahedral", 32, 32},
+                                            {"fisheye-equidistant", 32, 32},
+                                            {"paraboloid", 24, 24},
+                                            {"mirror-ball", 32, 32}})) {
     const Map source = landscape(shape.parameterization, shape.width, shape.height);
     const PrefilterReference reference(source);
     const std::vector<PrefilterLevel> levels = levels_of({192, 96});
@@ -86,9 +108,7 @@ TEST(PrefilterLaws, EnergyIsKept) {
         const double ring = 2 * kPi / 192 * (std::cos(y * kPi / 96) - std::cos((y + 1) * kPi / 96));
         for (int x = 0; x < 192; ++x) sum += ring * static_cast<double>(*results[i].level.chart(0).at(x, y));
       }
-      const bool kinks = std::string_view(shape.parameterization).substr(0, 10) == "octahedral";
-      const double bound = !source.parameterization.full_charts() ? 3e-3 : kinks ? 1e-3 : 1e-4;
-      EXPECT_NEAR(sum / reference.integral()[0], 1, bound)
+      EXPECT_NEAR(sum / reference.integral()[0], 1, 1e-4)
           << shape.parameterization << ' ' << levels[i].lobe.spec();
     }
   }
@@ -205,7 +225,7 @@ TEST(PrefilterLaws, SumsOfMapsAreSumsOfLevels) {
 TEST(PrefilterLaws, OrientationsOfSourceAndResultCancel) {
   const Map plain = landscape("cube", 12, 12);
   const std::vector<Map> expected = run(plain, "cube", {8, 8});
-  for (const Convention& convention : conventions()) {
+  for (const Convention& convention : thinned(conventions())) {
     Map turned = landscape("cube", 12, 12);
     turned.orientation = convention.lookup;
     PrefilterOptions options;

@@ -8,10 +8,12 @@
 #include "welkin/prefilter/sampled_lobe.h"
 
 namespace welkin {
-namespace {
 
-/// Gauss's two points in 0 … 1.
-const double kGauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+using prefilter::ChartCell;
+using prefilter::TexelKind;
+using prefilter::TexelPoint;
+
+namespace {
 
 /// A piece is small enough when its size squared is this part of width² + distance².
 constexpr double kSmall = 0.01;
@@ -53,131 +55,173 @@ struct PrefilterReference::Scale {
   bool kink = false;
 };
 
-PrefilterReference::PrefilterReference(const Map& source)
-    : parameterization_(source.parameterization),
-      orientation_(source.orientation),
-      width_(source.width()),
-      height_(source.height()),
-      channels_(source.channels()),
-      integral_(static_cast<std::size_t>(source.channels())) {
-  const bool full = parameterization_.full_charts();
-  const double area = 1.0 / (static_cast<double>(width_) * height_);
-  for (int chart = 0; chart < source.charts(); ++chart) {
-    for (int y = 0; y < height_; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        const float* texel = source.level.chart(chart).at(x, y);
-        Vec3d corner[4];
-        double total = 0;
-        for (int k = 0; k < 4; ++k) {
-          const double u = (x + kGauss[k % 2]) / width_, v = (y + kGauss[k / 2]) / height_;
-          const Vec3d d = parameterization_.to_sphere(chart, u, v);
-          const bool valid = full || parameterization_.valid(chart, u, v);
-          const double omega = valid ? parameterization_.solid_angle_density(chart, u, v) * area / 4 : 0;
-          corner[k] = d;
-          total += omega;
-          x_.push_back(d.x);
-          y_.push_back(d.y);
-          z_.push_back(d.z);
-          solid_angle_.push_back(omega);
-        }
-        const Vec3d a = corner[3] - corner[0], b = corner[2] - corner[1];
-        size_.push_back(1.5 * std::max(dot(a, a), dot(b, b)));
-        texel_.push_back(static_cast<std::size_t>((chart * height_ + y) * width_ + x));
-        for (int c = 0; c < channels_; ++c) {
-          radiance_.push_back(texel[c]);
-          integral_[static_cast<std::size_t>(c)] += total * static_cast<double>(texel[c]);
-        }
-      }
-    }
-  }
-}
-
-double PrefilterReference::near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale,
-                                      int chart, double u, double v, double du, double dv) const {
-  const Vec3d middle = parameterization_.to_sphere(chart, u + du / 2, v + dv / 2);
-  const Vec3d right = parameterization_.to_sphere(chart, u + du, v + dv / 2) - middle;
-  const Vec3d down = parameterization_.to_sphere(chart, u + du / 2, v + dv) - middle;
-  const Vec3d away = middle - direction;
-  const double size = 4 * std::max(dot(right, right), dot(down, down));
-  if (size > 1e-20 && scale.coarse(size, dot(away, away) / 2)) {
-    double sum = 0;
-    for (int k = 0; k < 4; ++k) {
-      sum += near_texel(lobe, direction, scale, chart, u + (k % 2) * du / 2, v + (k / 2) * dv / 2, du / 2,
-                        dv / 2);
-    }
-    return sum;
-  }
-  double sum = 0;
-  for (int k = 0; k < 4; ++k) {
-    const double pu = u + kGauss[k % 2] * du, pv = v + kGauss[k / 2] * dv;
-    if (!parameterization_.valid(chart, pu, pv)) continue;
-    const Vec3d d = parameterization_.to_sphere(chart, pu, pv) - direction;
-    sum += lobe.weight(dot(d, d) / 2) * parameterization_.solid_angle_density(chart, pu, pv) * du * dv / 4;
-  }
-  return sum;
-}
-
-namespace {
-
 /// A lobe's weights for arrays of s. Tables are slow to look up: they are sampled again, 2¹⁶ times, which
 /// changes them by less than 1e-7 of their largest value where they are smooth.
-class Weights64 {
+class PrefilterReference::Weights {
  public:
-  explicit Weights64(const lobe::AnyLobe& lobe) : lobe_(lobe) {
+  explicit Weights(const lobe::AnyLobe& lobe) : lobe_(lobe) {
     if (lobe.name() == "table") samples_.emplace(lobe, lobe.width(), 1 << 16);
   }
   void operator()(const double* s, double* weights, std::size_t count) const {
     if (!samples_) return lobe_.weights64(s, weights, count);
     for (std::size_t i = 0; i < count; ++i) weights[i] = samples_->at_chord(std::sqrt(2 * s[i]));
   }
+  const lobe::AnyLobe& lobe() const { return lobe_; }
 
  private:
   const lobe::AnyLobe& lobe_;
   std::optional<prefilter::ChordSamples> samples_;
 };
 
-}  // namespace
+PrefilterReference::PrefilterReference(const Map& source)
+    : parameterization_(source.parameterization),
+      orientation_(source.orientation),
+      size_{source.width(), source.height()},
+      channels_(static_cast<std::size_t>(source.channels())),
+      integral_(channels_) {
+  std::size_t texel = 0;
+  for (int chart = 0; chart < source.charts(); ++chart) {
+    for (int y = 0; y < size_.height; ++y) {
+      const std::vector<TexelKind> kinds = prefilter::texel_kinds(parameterization_, size_, chart, y);
+      const float* radiance = source.level.chart(chart).row(y);
+      for (const TexelKind kind : kinds) {
+        if (kind != TexelKind::outside) add_texel(texel, radiance, kind == TexelKind::plain);
+        ++texel;
+        radiance += channels_;
+      }
+    }
+  }
+}
+
+ChartCell PrefilterReference::cell_of(std::size_t texel) const {
+  const int x = static_cast<int>(texel % static_cast<std::size_t>(size_.width));
+  const int row = static_cast<int>(texel / static_cast<std::size_t>(size_.width));
+  return prefilter::texel_cell(size_, row / size_.height, x, row % size_.height);
+}
+
+void PrefilterReference::add_texel(std::size_t texel, const float* radiance, bool plain) {
+  const ChartCell cell = cell_of(texel);
+  std::vector<TexelPoint> points;
+  prefilter::append_gauss_points(parameterization_, cell, points);
+  const Vec3d a = points[3].direction - points[0].direction, b = points[2].direction - points[1].direction;
+  const double size = 1.5 * std::max(dot(a, a), dot(b, b));
+  if (!plain) {
+    points.clear();
+    prefilter::append_points(parameterization_, cell, prefilter::texel_limits(parameterization_, size_),
+                             points);
+  }
+  double total = 0;
+  for (const TexelPoint& point : points) total += point.solid_angle;
+  for (std::size_t c = 0; c < channels_; ++c) integral_[c] += total * static_cast<double>(radiance[c]);
+  if (points.empty()) return;
+  if (!plain) {
+    irregular_.push_back({std::move(points), size, {radiance, radiance + channels_}, texel});
+    return;
+  }
+  for (const TexelPoint& point : points) {
+    plain_.x.push_back(point.direction.x);
+    plain_.y.push_back(point.direction.y);
+    plain_.z.push_back(point.direction.z);
+    plain_.solid_angle.push_back(point.solid_angle);
+  }
+  plain_.size.push_back(size);
+  plain_.texel.push_back(texel);
+  plain_.radiance.insert(plain_.radiance.end(), radiance, radiance + channels_);
+}
+
+double PrefilterReference::near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale,
+                                      const ChartCell& cell, bool plain) const {
+  const auto at = [&](double across, double down) {
+    return parameterization_.to_sphere(cell.chart, cell.u + across * cell.width, cell.v + down * cell.height);
+  };
+  const Vec3d middle = at(0.5, 0.5), right = at(1, 0.5) - middle, down = at(0.5, 1) - middle;
+  const Vec3d away = middle - direction;
+  const double size = 4 * std::max(dot(right, right), dot(down, down));
+  double sum = 0;
+  if (size > 1e-20 && scale.coarse(size, dot(away, away) / 2)) {
+    for (int k = 0; k < 4; ++k) {
+      sum += near_texel(lobe, direction, scale, cell.part(k % 2, 2, k / 2, 2), plain);
+    }
+    return sum;
+  }
+  std::vector<TexelPoint> points;
+  if (plain) {
+    prefilter::append_gauss_points(parameterization_, cell, points);
+  } else {
+    prefilter::append_points(parameterization_, cell, prefilter::texel_limits(parameterization_, size_),
+                             points);
+  }
+  for (const TexelPoint& point : points) {
+    const Vec3d d = point.direction - direction;
+    sum += lobe.weight(dot(d, d) / 2) * point.solid_angle;
+  }
+  return sum;
+}
+
+void PrefilterReference::sum_plain(const Weights& weights, const Scale& scale, const Vec3d& r,
+                                   double* sum) const {
+  constexpr std::size_t kBlock = 512;
+  double s[4 * kBlock], weight[4 * kBlock];
+  const std::size_t texels = plain_.texel.size();
+  for (std::size_t first = 0; first < texels; first += kBlock) {
+    const std::size_t count = std::min(kBlock, texels - first);
+    for (std::size_t i = 0; i < 4 * count; ++i) {
+      const std::size_t k = 4 * first + i;
+      const double dx = plain_.x[k] - r.x, dy = plain_.y[k] - r.y, dz = plain_.z[k] - r.z;
+      s[i] = 0.5 * (dx * dx + dy * dy + dz * dz);
+    }
+    weights(s, weight, 4 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t k = first + i;
+      double integral = 0;
+      if (scale.coarse(plain_.size[k], s[4 * i])) {
+        integral = near_texel(weights.lobe(), r, scale, cell_of(plain_.texel[k]), true);
+      } else {
+        for (std::size_t j = 0; j < 4; ++j) integral += weight[4 * i + j] * plain_.solid_angle[4 * k + j];
+      }
+      for (std::size_t c = 0; c < channels_; ++c) {
+        sum[c] += integral * static_cast<double>(plain_.radiance[k * channels_ + c]);
+      }
+    }
+  }
+}
+
+void PrefilterReference::sum_irregular(const Weights& weights, const Scale& scale, const Vec3d& r,
+                                       double* sum) const {
+  std::vector<double> s, weight;
+  for (const Irregular& texel : irregular_) {
+    const std::size_t count = texel.points.size();
+    s.resize(count);
+    weight.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3d d = texel.points[i].direction - r;
+      s[i] = 0.5 * dot(d, d);
+    }
+    double integral = 0;
+    if (scale.coarse(texel.size, s[0])) {
+      integral = near_texel(weights.lobe(), r, scale, cell_of(texel.texel), false);
+    } else {
+      weights(s.data(), weight.data(), count);
+      for (std::size_t i = 0; i < count; ++i) integral += weight[i] * texel.points[i].solid_angle;
+    }
+    for (std::size_t c = 0; c < channels_; ++c) sum[c] += integral * static_cast<double>(texel.radiance[c]);
+  }
+}
 
 void PrefilterReference::evaluate(const lobe::AnyLobe& lobe, std::span<const Vec3d> directions,
                                   std::span<double> out, const Monitor& monitor) const {
-  const Scale fineness(lobe);
-  const double scale = 1 / lobe.integral();
-  const Weights64 weights(lobe);
-  const std::size_t texels = texel_.size(), channels = static_cast<std::size_t>(channels_);
+  const Scale scale(lobe);
+  const Weights weights(lobe);
+  const double norm = 1 / lobe.integral();
   parallel_for(
       static_cast<int>(directions.size()),
       [&](int which) {
         const Vec3d r = orientation_ * normalize(directions[static_cast<std::size_t>(which)]);
-        std::vector<double> sum(channels);
-        constexpr std::size_t kBlock = 512;
-        double s[4 * kBlock], weight[4 * kBlock];
-        for (std::size_t first = 0; first < texels; first += kBlock) {
-          const std::size_t count = std::min(kBlock, texels - first);
-          for (std::size_t i = 0; i < 4 * count; ++i) {
-            const std::size_t k = 4 * first + i;
-            const double dx = x_[k] - r.x, dy = y_[k] - r.y, dz = z_[k] - r.z;
-            s[i] = 0.5 * (dx * dx + dy * dy + dz * dz);
-          }
-          weights(s, weight, 4 * count);
-          for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t k = first + i;
-            double integral = 0;
-            if (fineness.coarse(size_[k], s[4 * i])) {
-              const int x = static_cast<int>(texel_[k] % static_cast<std::size_t>(width_));
-              const int row = static_cast<int>(texel_[k] / static_cast<std::size_t>(width_));
-              integral =
-                  near_texel(lobe, r, fineness, row / height_, static_cast<double>(x) / width_,
-                             static_cast<double>(row % height_) / height_, 1.0 / width_, 1.0 / height_);
-            } else {
-              for (std::size_t j = 0; j < 4; ++j) integral += weight[4 * i + j] * solid_angle_[4 * k + j];
-            }
-            for (std::size_t c = 0; c < channels; ++c) {
-              sum[c] += integral * static_cast<double>(radiance_[k * channels + c]);
-            }
-          }
-        }
-        for (std::size_t c = 0; c < channels; ++c) {
-          out[static_cast<std::size_t>(which) * channels + c] = sum[c] * scale;
+        std::vector<double> sum(channels_);
+        sum_plain(weights, scale, r, sum.data());
+        sum_irregular(weights, scale, r, sum.data());
+        for (std::size_t c = 0; c < channels_; ++c) {
+          out[static_cast<std::size_t>(which) * channels_ + c] = sum[c] * norm;
         }
       },
       monitor);

@@ -6,16 +6,19 @@
 #include "welkin/base/parallel.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/map/map.h"
+#include "welkin/prefilter/texel_points.h"
 
 namespace welkin {
 
 /// Pre-filtering by brute force in float64: for any direction, the sum over all the source's texels of
 /// radiance times the integral of the lobe over the texel. The definition itself, as far as quadrature goes:
-/// four points to a texel, and texels near the direction cut up until a piece is a tenth as wide as what the
-/// lobe does over its place. Relative error 1e-6 of the sum.
+/// four points to a texel, as many as it takes where a rim or a kink goes through it (texel_points.h), and
+/// texels near the direction cut up until a piece is a tenth as wide as what the lobe does over its place.
+/// Relative error 1e-6 of the sum.
 class PrefilterReference {
  public:
-  /// Keeps a copy of what it needs of the source: 36 + 4 · channels bytes, four times, for each texel.
+  /// Keeps a copy of what it needs of the source: 144 + 4 · channels bytes for each texel, and about 10 kB
+  /// for each that a rim or a kink goes through.
   explicit PrefilterReference(const Map& source);
 
   /// out[i·channels…]: the level's values in directions of the world.
@@ -28,17 +31,37 @@ class PrefilterReference {
  private:
   /// How fine a lobe is, for steps.
   struct Scale;
+  class Weights;
 
-  double near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale, int chart,
-                    double u, double v, double du, double dv) const;
+  /// Texels that four points do for: summed in blocks.
+  struct Plain {
+    std::vector<double> x, y, z, solid_angle;  ///< four points a texel
+    std::vector<double> size;                  ///< of the texel, squared, radians²
+    std::vector<float> radiance;
+    std::vector<std::size_t> texel;  ///< (chart · height + y) · width + x
+  };
+  /// Others, one by one.
+  struct Irregular {
+    std::vector<prefilter::TexelPoint> points;
+    double size;
+    std::vector<float> radiance;
+    std::size_t texel;
+  };
+
+  void add_texel(std::size_t texel, const float* radiance, bool plain);
+  prefilter::ChartCell cell_of(std::size_t texel) const;
+  double near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale,
+                    const prefilter::ChartCell& cell, bool plain) const;
+  /// Add to sum[channel] the texels' radiance times the integral of the lobe over them.
+  void sum_plain(const Weights& weights, const Scale& scale, const Vec3d& direction, double* sum) const;
+  void sum_irregular(const Weights& weights, const Scale& scale, const Vec3d& direction, double* sum) const;
 
   sphere::AnyParameterization parameterization_;
   Matrix3 orientation_;
-  int width_, height_, channels_;
-  std::vector<double> x_, y_, z_, solid_angle_;  ///< four points a texel
-  std::vector<double> size_;                     ///< of the texel, squared, radians²
-  std::vector<float> radiance_;
-  std::vector<std::size_t> texel_;  ///< (chart · height + y) · width + x
+  ChartSize size_;
+  std::size_t channels_;
+  Plain plain_;
+  std::vector<Irregular> irregular_;
   std::vector<double> integral_;
 };
 

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "welkin/prefilter/lagrange.h"
+#include "welkin/prefilter/texel_points.h"
 
 namespace welkin::prefilter {
 namespace {
@@ -90,109 +93,190 @@ class Deposit {
   std::vector<float> masses_;
 };
 
-/// The largest sides of a texel of a map of this size, radians, from a raster of places.
-struct TexelSides {
-  double across = 0, down = 0;
-};
-TexelSides largest_texel(const AnyParameterization& p, int width, int height) {
-  constexpr int kRaster = 24;
-  TexelSides largest;
-  for (int chart = 0; chart < p.charts(); ++chart) {
-    for (int j = 0; j < kRaster; ++j) {
-      for (int i = 0; i < kRaster; ++i) {
-        const double u = (i + 0.5) / kRaster, v = (j + 0.5) / kRaster;
-        if (!p.valid(chart, u, v)) continue;
-        const double step = 1e-4;
-        const Vec3d d = p.to_sphere(chart, u, v);
-        largest.across =
-            std::max(largest.across, length(p.to_sphere(chart, u + step, v) - d) / (step * width));
-        largest.down = std::max(largest.down, length(p.to_sphere(chart, u, v + step) - d) / (step * height));
-      }
-    }
-  }
-  return largest;
-}
+/// Gauss's two points in 0 … 1.
+constexpr double kGauss[2] = {0.211324865405187, 0.788675134594813};
 
-/// Where along a side of a texel, 0 … 1, its points lie: two of Gauss's in each cell, cells no wider than a
-/// step of the grid. One point where the texel is far finer.
-std::vector<float> offsets_of(double texel, double step) {
-  if (texel < step / 6) return {0.5f};
-  const int cells = std::max(1, static_cast<int>(std::ceil(texel / step - 1e-3)));
-  std::vector<float> offsets;
-  for (int cell = 0; cell < cells; ++cell) {
-    for (double side : {-1.0, 1.0}) {
-      offsets.push_back(static_cast<float>((cell + 0.5 + side / (2 * std::sqrt(3.0))) / cells));
-    }
+/// A batch of points on their way to the grid. Directions needn't be of length 1.
+struct Points {
+  static constexpr std::size_t kMost = 256;
+  explicit Points(std::size_t filled) : count(filled) {
+    for (float* each : {x, y, z, weight}) std::fill(each, each + sphere::padded(count), 0.0f);
   }
-  return offsets;
-}
+  /// Adds a point to the centre of mass of point i.
+  void merge(std::size_t i, float px, float py, float pz, float mass) {
+    x[i] += mass * px;
+    y[i] += mass * py;
+    z[i] += mass * pz;
+    weight[i] += mass;
+  }
+  alignas(64) float x[kMost], y[kMost], z[kMost], weight[kMost];
+  std::size_t count;
+};
+
+/// How many cells a texel is cut into so that none is wider than a step of the grid. 0 × 0: it is so small
+/// that one point will do.
+struct Cells {
+  int across = 0, down = 0;
+  friend bool operator==(const Cells&, const Cells&) = default;
+  friend bool operator<(const Cells& a, const Cells& b) {
+    return std::tie(a.across, a.down) < std::tie(b.across, b.down);
+  }
+};
 
 /// Deposits rows of any map.
 class Scatter {
  public:
   Scatter(const Map& map, int height)
-      : map_(map), full_(map.parameterization.full_charts()), grid_(AnyParameterization::make("latlong")) {
-    const double step = kPi / height;
-    const TexelSides texel = largest_texel(map.parameterization, map.width(), map.height());
-    across_ = offsets_of(texel.across, step);
-    down_ = offsets_of(texel.down, step);
-  }
+      : map_(map),
+        size_{map.width(), map.height()},
+        grid_(AnyParameterization::make("latlong")),
+        step_(static_cast<float>(kPi / height)) {}
 
   void row(int chart, int y, Deposit& deposit) const {
-    const int width = map_.width(), n = map_.channels();
-    const float* texels = map_.level.chart(chart).row(y);
-    alignas(64) float to_chart[kBatch], to_u[kBatch], to_v[kBatch];
-    for (float down : down_) {
-      for (float across : across_) {
-        for (int from = 0; from < width; from += static_cast<int>(kBatch)) {
-          Points points(*this, chart, y, from, across, down);
-          grid_.kernels().from_sphere(grid_.self(), points.x, points.y, points.z, to_chart, to_u, to_v,
-                                      points.count);
-          for (std::size_t i = 0; i < points.count; ++i) {
-            const std::size_t column = static_cast<std::size_t>(from) + i;
-            if (points.weight[i] == 0) continue;
-            // Texels past the row's end, if read, are its border: any values will do, and reading them is
-            // allowed.
-            deposit.add(to_u[i], to_v[i], texels + column * static_cast<std::size_t>(n), points.weight[i]);
-          }
-        }
-      }
+    const std::vector<TexelKind> kinds = texel_kinds(map_.parameterization, size_, chart, y);
+    std::vector<Texel> texels;
+    for (int x = 0; x < size_.width; ++x) {
+      const TexelKind kind = kinds[static_cast<std::size_t>(x)];
+      if (kind != TexelKind::outside) texels.push_back({x, {}, kind == TexelKind::plain});
     }
+    for (std::size_t from = 0; from < texels.size(); from += Points::kMost) {
+      choose_cells(chart, y, std::span(texels).subspan(from, std::min(Points::kMost, texels.size() - from)));
+    }
+    const auto irregular_ones =
+        std::stable_partition(texels.begin(), texels.end(), [](const Texel& texel) { return texel.plain; });
+    std::stable_sort(texels.begin(), irregular_ones,
+                     [](const Texel& a, const Texel& b) { return a.cells < b.cells; });
+    for (auto from = texels.begin(); from != irregular_ones;) {
+      const auto most = from + std::min<std::ptrdiff_t>(Points::kMost, irregular_ones - from);
+      const auto to =
+          std::find_if(from, most, [&](const Texel& each) { return !(each.cells == from->cells); });
+      add_plain(chart, y, {from, to}, deposit);
+      from = to;
+    }
+    for (auto each = irregular_ones; each != texels.end(); ++each) add_irregular(chart, y, *each, deposit);
   }
 
  private:
-  static constexpr std::size_t kBatch = 256;
-
-  /// One point of each of up to kBatch texels of a row: directions, and the solid angles that they stand for;
-  /// 0 outside the map's places.
-  struct Points {
-    Points(const Scatter& s, int chart, int row, int from, float across, float down) {
-      const AnyParameterization& p = s.map_.parameterization;
-      const int width = s.map_.width(), height = s.map_.height();
-      count = std::min(kBatch, static_cast<std::size_t>(width - from));
-      alignas(64) float u[kBatch], v[kBatch], mask[kBatch];
-      for (std::size_t i = 0; i < sphere::padded(count); ++i) {
-        const float column = static_cast<float>(from + static_cast<int>(std::min(i, count - 1)));
-        u[i] = (column + across) / static_cast<float>(width);
-        v[i] = (static_cast<float>(row) + down) / static_cast<float>(height);
-      }
-      p.kernels().to_sphere(p.self(), chart, u, v, x, y, z, count);
-      p.kernels().density(p.self(), chart, u, v, weight, count);
-      const double points = static_cast<double>(s.across_.size()) * static_cast<double>(s.down_.size());
-      const float area = static_cast<float>(1 / (points * width * height));
-      for (std::size_t i = 0; i < count; ++i) weight[i] = std::max(weight[i], 0.0f) * area;
-      if (s.full_) return;
-      p.kernels().valid(p.self(), chart, u, v, mask, count);
-      for (std::size_t i = 0; i < count; ++i) weight[i] = mask[i] > 0 ? weight[i] : 0.0f;
-    }
-    alignas(64) float x[kBatch], y[kBatch], z[kBatch], weight[kBatch];
-    std::size_t count;
+  struct Texel {
+    int x;
+    Cells cells;
+    bool plain;
   };
 
+  /// u and v of a place in each of a batch of texels.
+  struct Places {
+    Places(ChartSize size, int row, std::span<const Texel> texels, double across, double down) {
+      for (std::size_t i = 0; i < sphere::padded(texels.size()); ++i) {
+        u[i] = static_cast<float>((texels[std::min(i, texels.size() - 1)].x + across) / size.width);
+        v[i] = static_cast<float>((row + down) / size.height);
+      }
+    }
+    alignas(64) float u[Points::kMost], v[Points::kMost];
+  };
+
+  Points points_at(int chart, const Places& places, std::size_t count) const {
+    const AnyParameterization& p = map_.parameterization;
+    Points points(count);
+    p.kernels().to_sphere(p.self(), chart, places.u, places.v, points.x, points.y, points.z, count);
+    return points;
+  }
+
+  /// By twice the longer half of the texel, across and down. Rounded so that neighbours have the same. A long
+  /// texel of small solid angle isn't plain: its cells would be far too many.
+  void choose_cells(int chart, int row, std::span<Texel> texels) const {
+    const auto at = [&](double across, double down) {
+      return points_at(chart, Places(size_, row, texels, across, down), texels.size());
+    };
+    const Points middle = at(0.5, 0.5);
+    const auto longer = [&](const Points& a, const Points& b, std::size_t i) {
+      const auto half = [&](const Points& edge) {
+        const float x = edge.x[i] - middle.x[i], y = edge.y[i] - middle.y[i], z = edge.z[i] - middle.z[i];
+        return std::sqrt(x * x + y * y + z * z);
+      };
+      return 2 * std::max(half(a), half(b));
+    };
+    const auto cells_of = [&](float side) {
+      int cells = 1;
+      while (static_cast<float>(cells) * step_ * 1.001f < side) cells += (cells + 3) / 4;
+      return cells;
+    };
+    const Points left = at(0, 0.5), right = at(1, 0.5), top = at(0.5, 0), bottom = at(0.5, 1);
+    const AnyParameterization& p = map_.parameterization;
+    alignas(64) float density[Points::kMost];
+    const Places middles(size_, row, texels, 0.5, 0.5);
+    p.kernels().density(p.self(), chart, middles.u, middles.v, density, texels.size());
+    const float cell_area =
+        step_ * step_ * static_cast<float>(size_.width) * static_cast<float>(size_.height);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+      const float across = longer(left, right, i), down = longer(top, bottom, i);
+      if (std::max(across, down) < step_ / 6) continue;
+      Cells& cells = texels[i].cells;
+      cells = {cells_of(across), cells_of(down)};
+      if (static_cast<float>(cells.across * cells.down) > 4 + 4 * density[i] / cell_area)
+        texels[i].plain = false;
+    }
+  }
+
+  /// Two of Gauss's points along and down each cell of texels that have the same cells.
+  void add_plain(int chart, int row, std::span<const Texel> texels, Deposit& deposit) const {
+    const AnyParameterization& p = map_.parameterization;
+    const Cells cells = texels[0].cells;
+    const int across = std::max(1, cells.across), down = std::max(1, cells.down);
+    const std::size_t count = texels.size();
+    const float area =
+        static_cast<float>(1 / (4.0 * across * down * static_cast<double>(size_.width) * size_.height));
+    Points together(count);
+    alignas(64) float density[Points::kMost];
+    for (int k = 0; k < 4 * across * down; ++k) {
+      const Places places(size_, row, texels, (k / 4 % across + kGauss[k % 2]) / across,
+                          (k / 4 / across + kGauss[k / 2 % 2]) / down);
+      Points points = points_at(chart, places, count);
+      p.kernels().density(p.self(), chart, places.u, places.v, density, count);
+      for (std::size_t i = 0; i < count; ++i) points.weight[i] = density[i] * area;
+      if (cells.across > 0) {
+        add(points, chart, row, texels, deposit);
+      } else {
+        for (std::size_t i = 0; i < count; ++i) {
+          together.merge(i, points.x[i], points.y[i], points.z[i], points.weight[i]);
+        }
+      }
+    }
+    if (cells.across == 0) add(together, chart, row, texels, deposit);
+  }
+
+  /// What the texel covers, by many points, each merged with the one before while they are close together.
+  void add_irregular(int chart, int row, const Texel& texel, Deposit& deposit) const {
+    CellLimits limits = texel_limits(map_.parameterization, size_);
+    limits.side = static_cast<double>(step_);
+    std::vector<TexelPoint> exact;
+    append_points(map_.parameterization, texel_cell(size_, chart, texel.x, row), limits, exact);
+    for (std::size_t first = 0, i = 0; first < exact.size(); first = i) {
+      Points point(1);
+      for (; i < exact.size() && length(exact[i].direction - exact[first].direction) <= limits.side / 4;
+           ++i) {
+        const Vec3d d = exact[i].direction;
+        point.merge(0, static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
+                    static_cast<float>(exact[i].solid_angle));
+      }
+      add(point, chart, row, {&texel, 1}, deposit);
+    }
+  }
+
+  /// Deposits the texels' radiance at one point of each.
+  void add(const Points& points, int chart, int row, std::span<const Texel> texels, Deposit& deposit) const {
+    alignas(64) float to_chart[Points::kMost], u[Points::kMost], v[Points::kMost];
+    grid_.kernels().from_sphere(grid_.self(), points.x, points.y, points.z, to_chart, u, v, points.count);
+    for (std::size_t i = 0; i < points.count; ++i) {
+      // Past the last channel a texel's neighbour or border is read: any values will do.
+      if (points.weight[i] > 0)
+        deposit.add(u[i], v[i], map_.level.chart(chart).at(texels[i].x, row), points.weight[i]);
+    }
+  }
+
   const Map& map_;
-  bool full_;
+  ChartSize size_;
   AnyParameterization grid_;
-  std::vector<float> across_, down_;  ///< places of the points along the sides of a texel, 0 … 1
+  float step_;  ///< of the grid, radians
 };
 
 }  // namespace

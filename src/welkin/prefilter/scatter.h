@@ -5,9 +5,9 @@
 
 namespace welkin::prefilter {
 
-/// The masses of any map on the grid of `moments`, texel by texel: points of Gauss's rule in each texel,
-/// spread over 4×4 grid points by cubic Lagrange interpolation. The same sums whatever the number of threads.
-/// Throws Cancelled.
+/// The masses of any map on the grid of `moments`, texel by texel: points of each texel (texel_points.h),
+/// spread over 6×6 grid points by Lagrange interpolation of degree five. The same sums whatever the number of
+/// threads. Throws Cancelled.
 void scatter_texels(const Map& map, Moments& moments, const Monitor& monitor);
 
 }  // namespace welkin::prefilter

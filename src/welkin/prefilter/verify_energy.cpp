@@ -4,33 +4,12 @@
 #include <cmath>
 
 #include "welkin/map/row_bands.h"
+#include "welkin/prefilter/texel_points.h"
 
 namespace welkin::prefilter {
 namespace {
 
 constexpr int kLeastRows = 256, kMostRows = 512;
-
-/// Gauss's two points in 0 … 1.
-const double kGauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
-
-/// Solid angles of a row's texels, by four points each, as the reference has them.
-void row_solid_angles(const Map& map, int chart, int y, std::vector<double>& omega) {
-  const sphere::AnyParameterization& p = map.parameterization;
-  const double area = 0.25 / (static_cast<double>(map.width()) * map.height());
-  const bool full = p.full_charts(), by_row = full && p.density_by_row();
-  for (int x = 0; x < map.width(); ++x) {
-    double& sum = omega[static_cast<std::size_t>(x)];
-    if (by_row && x > 0) {
-      sum = omega[0];
-      continue;
-    }
-    sum = 0;
-    for (int k = 0; k < 4; ++k) {
-      const double u = (x + kGauss[k % 2]) / map.width(), v = (y + kGauss[k / 2]) / map.height();
-      if (full || p.valid(chart, u, v)) sum += p.solid_angle_density(chart, u, v) * area;
-    }
-  }
-}
 
 /// Sums value(texel's value)·Ω of each channel, in an order that depends on the size alone.
 template <class Value>
@@ -40,10 +19,10 @@ std::vector<double> sum_texels(const Map& map, const Value& value) {
   std::vector<std::vector<double>> sums(static_cast<std::size_t>(bands.count), std::vector<double>(channels));
   parallel_for(bands.count, [&](int band) {
     std::vector<double>& sum = sums[static_cast<std::size_t>(band)];
-    std::vector<double> omega(static_cast<std::size_t>(map.width()));
     for (int row = bands.first(band); row < bands.first(band + 1); ++row) {
       const int chart = row / map.height(), y = row % map.height();
-      row_solid_angles(map, chart, y, omega);
+      const std::vector<double> omega =
+          summed_solid_angles(map.parameterization, {map.width(), map.height()}, chart, y);
       const float* texel = map.level.chart(chart).row(y);
       for (const double each : omega) {
         // What isn't a place of the map may hold anything.
