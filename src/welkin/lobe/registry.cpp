@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "welkin/base/cpu.h"
 #include "welkin/base/error.h"
@@ -31,6 +32,8 @@ class AnyLobe::Model {
   virtual bool mirror() const = 0;
   virtual double weight(double s) const = 0;
   virtual void weights64(const double* s, double* weights, std::size_t count) const = 0;
+  /// Where there is a closed form.
+  virtual std::optional<double> integral() const = 0;
   virtual double width() const = 0;
   virtual std::vector<double> breakpoints() const = 0;
   virtual const void* self() const = 0;
@@ -92,6 +95,10 @@ class ModelOf final : public Model {
   void weights64(const double* s, double* weights, std::size_t count) const override {
     const L lobe = lobe_;  // a copy that the stores can't change
     for (std::size_t i = 0; i < count; ++i) weights[i] = lobe.template weight<double>(s[i]);
+  }
+  std::optional<double> integral() const override {
+    if constexpr (requires { lobe_.integral(); }) return lobe_.integral();
+    return {};
   }
   double width() const override { return lobe_.width(); }
   std::vector<double> breakpoints() const override { return lobe_.breakpoints(); }
@@ -242,6 +249,7 @@ std::string AnyLobe::spec() const {
 
 double AnyLobe::integral() const {
   if (mirror()) return 0;
+  if (const std::optional<double> known = model_->integral()) return *known;
   const LobeNodes nodes = lobe_nodes(*this, 0);
   return std::accumulate(nodes.weights.begin(), nodes.weights.end(), 0.0);
 }

@@ -15,18 +15,19 @@ constexpr double kNarrowest = 1e-7;  // radians
 }  // namespace
 
 void check_point(const std::string& where, const std::vector<double>& before, double degrees, double value) {
-  const std::string angle = number_text(degrees) + "°";
-  if (!(degrees >= 0 && degrees <= 180)) throw Error(where + ": the angle " + angle + " is not in 0…180°");
-  if (before.empty() && degrees != 0) throw Error(where + ": the first angle is " + angle + ", not 0");
+  // Numbers are written out for an error alone: tables are long.
+  const auto fail = [&](const std::string& what) { throw Error(where + what); };
+  const auto angle = [&] { return ": the angle " + number_text(degrees) + "°"; };
+  if (!(degrees >= 0 && degrees <= 180)) fail(angle() + " is not in 0…180°");
+  if (before.empty() && degrees != 0) fail(": the first angle is " + number_text(degrees) + "°, not 0");
   if (!before.empty() && !(degrees > before.back())) {
-    throw Error(where + ": the angle " + angle + " is not above the one before, " +
-                number_text(before.back()) + "°");
+    fail(angle() + " is not above the one before, " + number_text(before.back()) + "°");
   }
   if (!(value >= 0 && std::isfinite(value))) {
-    throw Error(where + ": the value " + number_text(value) + " is not a finite number of at least 0");
+    fail(": the value " + number_text(value) + " is not a finite number of at least 0");
   }
   if (before.size() >= kMostTablePoints) {
-    throw Error(where + ": has more than " + std::to_string(kMostTablePoints) + " points");
+    fail(": has more than " + std::to_string(kMostTablePoints) + " points");
   }
 }
 

@@ -3,10 +3,13 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <numeric>
+#include <span>
 
 #include "welkin/base/error.h"
 #include "welkin/lobe/angle.h"
 #include "welkin/lobe/lobe.h"
+#include "welkin/lobe/panels.h"
 #include "welkin/lobe/table_file.h"
 #include "welkin/lobe/zonal.h"
 
@@ -111,6 +114,20 @@ TEST(Table, ScalesItsValues) {
                 b = AnyLobe::from_table("tiny", degrees, tiny);
   EXPECT_NEAR(a.integral() / b.integral(), 1, 1e-12);
   EXPECT_EQ(a.weight(0), 1);
+}
+
+/// The closed form against quadrature, of parts from 1e-7 to 2 radians wide; a cone's is its solid angle.
+TEST(Table, HasTheIntegralOfItsWeights) {
+  const double degrees[] = {0, 1e-5, 3e-5, 1e-3, 0.3, 5.7, 5.8, 12, 60, 65.7, 71.5, 180};
+  const double values[] = {0.2, 1, 3, 2, 2.5, 2, 0, 0.5, 0.1, 0.3, 0, 0.2};
+  for (std::size_t count = 2; count <= std::size(degrees); ++count) {
+    const AnyLobe lobe = AnyLobe::from_table("any", std::span(degrees, count), std::span(values, count));
+    const LobeNodes nodes = lobe_nodes(lobe, 0);
+    const double sum = std::accumulate(nodes.weights.begin(), nodes.weights.end(), 0.0);
+    EXPECT_NEAR(lobe.integral() / sum, 1, 1e-11) << count;
+  }
+  const double edge[] = {0, 30, 30.000001}, one[] = {1, 1, 0};
+  EXPECT_NEAR(AnyLobe::from_table("cone", edge, one).integral(), 2 * kPi * (1 - 0.5 * std::sqrt(3.0)), 1e-7);
 }
 
 /// A uniform cone of half-angle θ: λ_1 = (1 + cos θ)/2, all but the step of 1e-6 degrees that ends it.

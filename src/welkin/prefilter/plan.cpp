@@ -87,8 +87,8 @@ constexpr int kMostDegree = 480;
 
 /// Whether a lobe is to be split into near and far: too many degrees, and most of it near its axis. A narrow
 /// ring isn't.
-bool is_split(const WidenedLobe& lobe) {
-  return lobe.degree() > kMostDegree && lobe::angle_holding(lobe.lobe, 0.5) < 0.2;
+bool is_split(const lobe::AnyLobe& lobe, int degree) {
+  return degree > kMostDegree && lobe::angle_holding(lobe, 0.5) < 0.2;
 }
 
 /// Rows that a near part is done on. They resolve what is left of the lobe at the scale of the texel, or all
@@ -130,7 +130,6 @@ HarmonicLevel::HarmonicLevel(const WidenedLobe& widened, const std::vector<doubl
       lobe(widened.lobe),
       all(widened.smooth),
       scale(1 / widened.lobe.integral()) {
-  if (widened.sigma > 0) sampled.emplace_back(lobe);
   grid.height = grid.width / 2;
 }
 
@@ -166,7 +165,7 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
     if (level.lobe.mirror()) continue;
     choices[i] = {widen(level.lobe, texel_of(i), options.tolerance / 5), 0};
     Choice& choice = *choices[i];
-    if (is_split(choice.lobe)) {
+    if (is_split(level.lobe, choice.lobe.degree())) {
       choice.near_rows = near_rows(source.parameterization, texel_of(i), choice.lobe.degree());
       check_near_size(choice.near_rows, source.channels);
     }
@@ -190,7 +189,8 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
     const auto& [lobe, rows] = *choices[i];
     const int width = tables->moments[0].width;
     if (rows == 0) {
-      tables->harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(i), width);
+      HarmonicLevel& harmonic = tables->harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(i), width);
+      if (lobe.sigma > 0) harmonic.sampled.emplace_back(lobe.lobe);
       tables->methods.push_back(
           {"harmonics", lobe.degree(), tables->harmonic.back().grid, lobe.lobe, lobe.sigma, false});
       continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "welkin/base/number_text.h"
+#include "welkin/lobe/angle.h"
 #include "welkin/lobe/zonal.h"
 #include "welkin/math/scalar.h"
 
@@ -15,17 +16,32 @@ constexpr double kDecay = 1.25;
 
 constexpr int kMostDegree = 32768;
 
-/// Σ (2l + 1) λ_l P_l(1 − s) / 4π.
-double series(const std::vector<double>& zonal, double s) {
-  // D_l = P_l − P_(l−1): (l+1) D_(l+1) = l D_l − (2l+1) s P_l keeps the precision of a small s.
-  double p = 1, difference = 0, sum = 0;
+/// Σ (2l + 1) λ_l P_l(1 − s) / 4π for each s. Eight at a time.
+std::vector<double> series(const std::vector<double>& zonal, const std::vector<double>& places) {
+  std::vector<double> keep, bend, terms;
   for (std::size_t l = 0; l < zonal.size(); ++l) {
     const double n = static_cast<double>(l);
-    sum += (2 * n + 1) * zonal[l] * p;
-    difference = (n * difference - (2 * n + 1) * s * p) / (n + 1);
-    p += difference;
+    keep.push_back(n / (n + 1));
+    bend.push_back((2 * n + 1) / (n + 1));
+    terms.push_back((2 * n + 1) * zonal[l] / (4 * kPi));
   }
-  return sum / (4 * kPi);
+  std::vector<double> sums(places.size());
+  for (std::size_t first = 0; first < places.size(); first += 8) {
+    const std::size_t count = std::min<std::size_t>(8, places.size() - first);
+    double s[8] = {}, p[8], difference[8] = {}, sum[8] = {};
+    std::fill_n(p, 8, 1.0);
+    std::copy_n(&places[first], count, s);
+    // D_l = P_l − P_(l−1): (l+1) D_(l+1) = l D_l − (2l+1) s P_l keeps the precision of a small s.
+    for (std::size_t l = 0; l < terms.size(); ++l) {
+      for (int i = 0; i < 8; ++i) {
+        sum[i] += terms[l] * p[i];
+        difference[i] = keep[l] * difference[i] - bend[l] * s[i] * p[i];
+        p[i] += difference[i];
+      }
+    }
+    std::copy_n(sum, count, &sums[first]);
+  }
+  return sums;
 }
 
 }  // namespace
@@ -71,20 +87,21 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   zonal.resize(static_cast<std::size_t>(degree) + 1);
   // The lobe's values, from its axis outward, dense where it is steep. Far out, where the series would be all
   // rounding errors, by the Gaussian's first moment: w + σ²/2 ∇²w.
-  std::vector<double> degrees, values;
+  std::vector<double> angles, near_places, degrees, values;
   constexpr int kPoints = 1500;
   const double sigma = std::sqrt(square), core = std::max(sigma, lobe.width()), scale = 1 / lobe.integral();
-  const auto weight = [&](double angle) {
-    const double sine = std::sin(angle / 2);
-    return scale * lobe.weight(2 * sine * sine);
-  };
+  const auto weight = [&](double angle) { return scale * lobe.weight(lobe::s_of_angle(angle)); };
   for (int i = 0; i <= kPoints; ++i) {
     const double part = static_cast<double>(i) / kPoints;
-    const double angle = std::min(kPi, core * std::sinh(part * std::asinh(kPi / core)));
-    const double sine = std::sin(angle / 2);
+    angles.push_back(std::min(kPi, core * std::sinh(part * std::asinh(kPi / core))));
+    if (angles.back() < 12 * core) near_places.push_back(lobe::s_of_angle(angles.back()));
+  }
+  const std::vector<double> near_values = series(zonal, near_places);
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double angle = angles[i];
     double value = 0;
-    if (angle < 12 * core) {
-      value = series(zonal, 2 * sine * sine);
+    if (i < near_values.size()) {
+      value = near_values[i];
     } else {
       const double step = std::min(angle, kPi - angle) / 64;
       const double before = weight(angle - step), at = weight(angle), after = weight(angle + step);
