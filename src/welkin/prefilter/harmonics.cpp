@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -197,11 +198,14 @@ class Harmonics {
 
   void store_rows(const HarmonicLevel& level, int pack, int c, const float* lanes, Level& grid) const {
     const ImageView<float> chart = grid.chart(0);
+    std::array<float*, 16> rows{};
     for (int lane = 0; lane < 16; ++lane) {
       const int north = pack * 8 + lane % 8;
       if (north >= level.latitudes.count) continue;
-      store_lane(lanes, lane, grid, chart.row(lane < 8 ? north : level.grid.height - 1 - north) + first_ + c);
+      rows[static_cast<std::size_t>(lane)] =
+          chart.row(lane < 8 ? north : level.grid.height - 1 - north) + first_ + c;
     }
+    store_lanes(lanes, rows, grid);
   }
 
   const Tables& t_;

@@ -40,6 +40,23 @@ struct SpreadRows {
   }
 };
 
+/// Orders of rows of masses for NearField: rows follow each other, those of the northern half and their
+/// mirror images.
+struct NearOrders {
+  float* values;         ///< of the order 0
+  std::ptrdiff_t order;  ///< from one order to the next, in values
+  std::ptrdiff_t part;   ///< from one part to the next
+  std::ptrdiff_t half;   ///< from the northern rows to the southern
+};
+
+/// Orders of a pack of NearField's results, ready for the transform along the rows: [channel][column][16].
+struct NearColumns {
+  float* lanes;
+  std::ptrdiff_t channel;  ///< from one channel to the next, in values
+  int length;              ///< columns
+  const float* turn;       ///< see HarmonicLevel
+};
+
 struct Kernels {
   /// Masses of the pack's rows: channel after channel, [column][16]. `work`: 16·(width + 2)·channels + 64
   /// values.
@@ -53,18 +70,15 @@ struct Kernels {
   float* (*orders_to_rows)(const FftPlan& plan, const float* orders, int degree, int packs, int parts,
                            float* lanes, float* work);
 
-  /// The same as rows_to_orders for NearField: orders as [order][part][reach + row + reach], row by row.
-  /// `orders` is at [0][2·channel][reach]; `step` values from one order to the next, `part` from one part to
-  /// the next.
+  /// The same as rows_to_orders for NearField: one channel of a pack. `orders.values` is at its first part.
   void (*rows_to_near)(const FftPlan& plan, float* lanes, float* work, const float* factors, int last,
-                       int pack, int rows, std::ptrdiff_t step, std::ptrdiff_t part, float* orders);
-  /// One order of the result's rows, laid out in the same way, from that of the masses.
-  void (*near[3])(const NearField& field, int order, const float* from, std::ptrdiff_t part, float* to,
-                  std::ptrdiff_t to_part);
-  /// Rows 8·pack … and rows/2 + 8·pack … of a channel, [column][16], from orders; returns where they are.
-  float* (*near_to_rows)(const FftPlan& plan, const float* orders, int last, int pack, int rows,
-                         std::ptrdiff_t step, std::ptrdiff_t part, const float* turn, float* lanes,
-                         float* work);
+                       const NearOrders& orders);
+  /// One order of all channels of a pack of the result's rows, from that of the masses: `masses.values` is at
+  /// the pack's first row. Index channels − 1.
+  void (*near[3])(const NearField& field, int pack, int order, const NearOrders& masses,
+                  const NearColumns& results);
+  /// Transforms [column][16] back; returns where the result is: `lanes` or `work`.
+  float* (*to_rows)(const FftPlan& plan, float* lanes, float* work);
 
   /// Of a SampledLobe.
   lobe::PointSums sampled_sums;

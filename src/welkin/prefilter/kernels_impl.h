@@ -199,10 +199,9 @@ struct KernelsOf {
         &spread_rows,
         &rows_to_orders,
         &orders_to_rows,
-        &NearRows<Arch>::rows_to_near,
-        {&NearRows<Arch>::template near<2>, &NearRows<Arch>::template near<4>,
-         &NearRows<Arch>::template near<6>},
-        &NearRows<Arch>::near_to_rows,
+        &Near<Arch>::rows_to_near,
+        {&Near<Arch>::template near<1>, &Near<Arch>::template near<2>, &Near<Arch>::template near<3>},
+        &Fft<Arch>::inverse,
         &sampled_sums,
         {&Legendre<Arch, 2>::analyse, &Legendre<Arch, 4>::analyse, &Legendre<Arch, 6>::analyse},
         {&Legendre<Arch, 2>::synthesise, &Legendre<Arch, 4>::synthesise, &Legendre<Arch, 6>::synthesise}};

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "welkin/prefilter/kernels.h"
@@ -10,98 +11,118 @@ namespace {
 
 using namespace prefilter;
 
-/// Orders of rows, with zeros for the rows past either pole: [order][part][reach + rows + reach].
-struct RowOrders {
-  RowOrders(int row_count, int reach_rows, int part_count, int last)
-      : reach(reach_rows),
-        part(row_count + 2 * reach_rows + 8),
-        step(part * part_count),
-        values(static_cast<std::size_t>(step) * static_cast<std::size_t>(last + 1)) {}
+/// Packs [first, end) of the result's rows, all steps in one piece of work, which stays in the cache.
+class Band {
+ public:
+  Band(const NearGroup& group, const Moments& moments, int first, int end)
+      : group_(group), moments_(moments), first_(first), end_(end) {
+    for (const NearLevel& level : group.levels) {
+      last_ = std::max(last_, level.field.last);
+      reach_ = std::max(reach_, level.field.reach);
+    }
+    margin_ = (reach_ + 7) / 8;
+  }
 
-  float* at(int order, int part_index) { return values.data() + order * step + part_index * part + reach; }
+  /// Up to three channels from `channel`.
+  void run(int channel, int channels, std::vector<Level>& grids) {
+    take_orders(channel, channels);
+    for (std::size_t i = 0; i < grids.size(); ++i) fill(group_.levels[i], channel, channels, grids[i]);
+  }
 
-  int reach;
-  std::ptrdiff_t part, step;
-  Buffer values;
-};
-
-/// The orders of the masses, up to three channels from `first`.
-RowOrders mass_orders(const NearGroup& group, const Moments& moments, int first, int channels, int last,
-                      int reach, const Monitor& monitor) {
-  RowOrders orders(moments.height, reach, 2 * channels, last);
-  for (int m = 0; m <= last; ++m) {
-    for (int p = 0; p < 2 * channels; ++p) {
-      float* rows = orders.at(m, p);
-      std::fill(rows - reach, rows, 0.0f);
-      std::fill(rows + moments.height, rows + moments.height + reach + 8, 0.0f);
+ private:
+  /// The orders of the masses of these rows and of those that they reach: [order][part][half][row].
+  void take_orders(int channel, int channels) {
+    const int rows = (end_ - first_ + 2 * margin_) * 8, beside = margin_ * 8;
+    orders_ = {nullptr, 4 * static_cast<std::ptrdiff_t>(rows) * channels,
+               2 * static_cast<std::ptrdiff_t>(rows), rows};
+    values_ = Buffer(static_cast<std::size_t>(orders_.order) * static_cast<std::size_t>(last_ + 1));
+    orders_.values = values_.data() + beside;
+    const std::size_t size = static_cast<std::size_t>(moments_.width) * 16;
+    Buffer lanes(2 * size);
+    for (int pack = std::max(0, first_ - margin_); pack < std::min(end_ + margin_, moments_.packs); ++pack) {
+      for (int c = 0; c < channels; ++c) {
+        NearOrders to = orders_;
+        to.values += (pack - first_) * 8 + 2 * c * orders_.part;
+        std::memcpy(lanes.data(), moments_.at(pack, channel + c), size * sizeof(float));
+        kernels().rows_to_near(group_.fft, lanes.data(), lanes.data() + size, group_.factors.data(), last_,
+                               to);
+      }
+    }
+    // Past the pole there is nothing; past the equator rows go on in the other half.
+    for (int m = 0; m <= last_; ++m) {
+      for (int part = 0; part < 4 * channels; ++part) {
+        float* row = orders_.values + m * orders_.order + part * orders_.half;
+        float* other = part % 2 == 0 ? row + orders_.half : row - orders_.half;
+        for (int pack = first_ - margin_; pack < 0; ++pack) std::fill_n(row + (pack - first_) * 8, 8, 0.0f);
+        const std::ptrdiff_t equator = (moments_.packs - first_) * 8;
+        for (std::ptrdiff_t past = 0; equator + past < (end_ - first_) * 8 + beside; ++past) {
+          row[equator + past] = other[equator - 1 - past];
+        }
+      }
     }
   }
-  parallel_for(
-      moments.packs,
-      [&](int pack) {
-        const std::size_t size = static_cast<std::size_t>(moments.width) * 16;
-        Buffer lanes(size), work(size);
-        for (int c = 0; c < channels; ++c) {
-          std::memcpy(lanes.data(), moments.at(pack, first + c), size * sizeof(float));
-          kernels().rows_to_near(group.fft, lanes.data(), work.data(), group.factors.data(), last, pack,
-                                 moments.height, orders.step, orders.part, orders.at(0, 2 * c));
-        }
-      },
-      monitor);
-  return orders;
-}
 
-void convolve(const NearLevel& level, RowOrders& masses, int first, int channels, Level& grid,
-              const Monitor& monitor) {
-  const int rows = level.field.rows, last = level.field.last;
-  RowOrders results(rows, 0, 2 * channels, last);
-  parallel_for(
-      last + 1,
-      [&](int m) {
-        kernels().near[channels - 1](level.field, m, masses.at(m, 0), masses.part, results.at(m, 0),
-                                     results.part);
-      },
-      monitor);
-  parallel_for(
-      rows / 16,
-      [&](int pack) {
-        const std::size_t size = static_cast<std::size_t>(level.grid.width) * 16;
-        Buffer memory(2 * size);
-        for (int c = 0; c < channels; ++c) {
-          const float* lanes =
-              kernels().near_to_rows(level.fft, results.at(0, 2 * c), last, pack, rows, results.step,
-                                     results.part, level.turn.data(), memory.data(), memory.data() + size);
-          for (int lane = 0; lane < 16; ++lane) {
-            store_lane(lanes, lane, grid,
-                       grid.chart(0).row((lane < 8 ? 0 : rows / 2) + pack * 8 + lane % 8) + first + c);
-          }
+  void fill(const NearLevel& level, int channel, int channels, Level& grid) const {
+    const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(level.grid.width) * 16;
+    Buffer lanes(static_cast<std::size_t>(size * ((end_ - first_) * channels + 1)));
+    const auto at = [&](int pack, int c) { return lanes.data() + ((pack - first_) * channels + c) * size; };
+    for (int pack = first_; pack < end_; ++pack) {
+      const int last = level.field.packs[static_cast<std::size_t>(pack)].last;
+      for (int c = 0; c < channels; ++c) {
+        std::fill(at(pack, c) + (last + 1) * 16, at(pack, c) + (level.grid.width - last) * 16, 0.0f);
+      }
+    }
+    // One order of all packs after the other: their rows of masses overlap.
+    for (int m = 0; m <= level.field.last; ++m) {
+      for (int pack = first_; pack < end_; ++pack) {
+        if (m > level.field.packs[static_cast<std::size_t>(pack)].last) continue;
+        NearOrders masses = orders_;
+        masses.values += (pack - first_) * 8;
+        kernels().near[channels - 1](level.field, pack, m, masses,
+                                     {at(pack, 0), size, level.grid.width, level.turn.data()});
+      }
+    }
+    for (int pack = first_; pack < end_; ++pack) {
+      for (int c = 0; c < channels; ++c) {
+        const float* rows = kernels().to_rows(level.fft, at(pack, c), at(end_, 0));
+        std::array<float*, 16> to;
+        for (int lane = 0; lane < 16; ++lane) {
+          const int north = pack * 8 + lane % 8;
+          to[static_cast<std::size_t>(lane)] =
+              grid.chart(0).row(lane < 8 ? north : level.grid.height - 1 - north) + channel + c;
         }
-      },
-      monitor);
-}
+        store_lanes(rows, to, grid);
+      }
+    }
+  }
+
+  const NearGroup& group_;
+  const Moments& moments_;
+  int first_, end_;
+  int last_ = 0, reach_ = 0, margin_ = 0;  ///< the margin in packs
+  Buffer values_;
+  NearOrders orders_{};
+};
 
 }  // namespace
 
 std::vector<Level> run_near(const NearGroup& group, const Map& source, const Monitor& monitor) {
   const Moments moments = moments_of(source, group.moments, part_of(monitor, 0, 0.2));
-  const Monitor quiet = without_progress(monitor);
-  int last = 0, reach = 0;
   std::vector<Level> grids;
   for (const NearLevel& level : group.levels) {
-    last = std::max(last, level.field.last);
-    reach = std::max(reach, level.field.reach);
     grids.emplace_back(1, level.grid.width, level.grid.height, source.channels());
   }
-  for (int first = 0; first < source.channels(); first += 3) {
-    const int channels = std::min(3, source.channels() - first);
-    RowOrders masses = mass_orders(group, moments, first, channels, last, reach, quiet);
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-      convolve(group.levels[i], masses, first, channels, grids[i], quiet);
-      if (monitor.progress)
-        monitor.progress(0.2 + 0.8 * static_cast<double>(i + 1) / static_cast<double>(grids.size()));
-    }
-  }
-  to_splines(grids, quiet);
+  constexpr int kPacks = 8;
+  const int bands = (moments.packs + kPacks - 1) / kPacks, groups = (source.channels() + 2) / 3;
+  parallel_for(
+      bands * groups,
+      [&](int i) {
+        const int first = i / groups * kPacks, channel = i % groups * 3;
+        Band(group, moments, first, std::min(first + kPacks, moments.packs))
+            .run(channel, std::min(3, source.channels() - channel), grids);
+      },
+      part_of(monitor, 0.2, 0.9));
+  to_splines(grids, part_of(monitor, 0.9, 1));
   return grids;
 }
 

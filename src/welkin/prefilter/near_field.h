@@ -16,10 +16,19 @@ namespace welkin::prefilter {
 ///
 /// The order m of a result's row θ is Σ over rows θ′ of K_m(θ, θ′) times the order m of the masses, with
 /// K_m = 1/2π ∫ near(s) cos mφ dφ, s = 1 − cos(θ − θ′) + sin θ sin θ′ (1 − cos φ).
+///
+/// K makes up for the fine detail across rows that is lost on the way: see kSharpening in the source.
 struct NearField {
   /// `rows` is a multiple of 16. `degree`: of the harmonics that do the far part.
   NearField(const lobe::AnyLobe& lobe, const std::vector<double>& zonal, int rows, int degree,
             double tolerance);
+
+  /// K for eight northern rows. The southern rows mirror them.
+  struct Pack {
+    int last;              ///< order; beyond, K is nothing
+    int stride;            ///< K of every so manieth order, cubic between; a power of two
+    std::ptrdiff_t begin;  ///< in `table`: [1 + m/stride][reach + offset][8] from m = −stride on
+  };
 
   int rows;
   int reach;  ///< rows to either side
@@ -28,14 +37,8 @@ struct NearField {
   /// Coefficients of the far part, degrees 0 … degree.
   std::vector<double> far;
 
-  /// K of every eighth order from −8 on, cubic between: [1 + m/8][reach + offset][row], offset of the masses'
-  /// row. Where it changes too fast for that, near the poles, every order has its own: see `polar`.
+  std::vector<Pack> packs;  ///< of rows/2 rows, from the pole to the equator
   std::vector<float> table;
-  /// For packs of eight rows near a pole: where its own table begins in `polar_table`, [m][reach +
-  /// offset][8]; −1 elsewhere.
-  std::vector<std::ptrdiff_t> polar;
-  std::vector<float> polar_table;
-  std::vector<int> last_order;  ///< of each pack: beyond, K is nothing
 };
 
 }  // namespace welkin::prefilter

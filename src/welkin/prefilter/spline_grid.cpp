@@ -70,10 +70,19 @@ void to_splines(std::span<Level> grids, const Monitor& monitor) {
   for (Level& grid : grids) fill_latlong_border(grid);
 }
 
-void store_lane(const float* lanes, int lane, const Level& grid, float* row) {
-  const std::ptrdiff_t channels = grid.channels();
-  for (int x = 0; x < grid.width(); ++x)
-    row[x * channels] = lanes[static_cast<std::ptrdiff_t>(x) * 16 + lane];
+void store_lanes(const float* lanes, const std::array<float*, 16>& rows, const Level& grid) {
+  const std::ptrdiff_t channels = grid.channels(), width = grid.width();
+  // So many columns at a time stay in the nearest cache.
+  constexpr std::ptrdiff_t kColumns = 64;
+  for (std::ptrdiff_t first = 0; first < width; first += kColumns) {
+    const std::ptrdiff_t last = std::min(width, first + kColumns);
+    for (std::size_t lane = 0; lane < rows.size(); ++lane) {
+      if (rows[lane] == nullptr) continue;
+      const float* from = lanes + lane;
+      float* row = rows[lane];
+      for (std::ptrdiff_t x = first; x < last; ++x) row[x * channels] = from[x * 16];
+    }
+  }
 }
 
 void fill_latlong_border(Level& grid) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "welkin/base/parallel.h"
@@ -17,8 +18,9 @@ void to_spline_columns(Level& grid, int first, int last);
 /// All columns of all grids, and then their borders. Throws Cancelled.
 void to_splines(std::span<Level> grids, const Monitor& monitor);
 
-/// Fills a row of one channel of a grid: `row` is at its first value. From `lanes`, [column][16].
-void store_lane(const float* lanes, int lane, const Level& grid, float* row);
+/// Fills sixteen rows of one channel of a grid from `lanes`, [column][16]: `rows` are at their first values,
+/// null where a lane isn't wanted.
+void store_lanes(const float* lanes, const std::array<float*, 16>& rows, const Level& grid);
 
 /// Fills the border of a lat-long level: left and right go around, past a pole rows go on down the opposite
 /// meridian.
