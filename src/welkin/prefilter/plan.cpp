@@ -94,7 +94,7 @@ bool is_split(const lobe::AnyLobe& lobe, int degree) {
 /// Rows that a near part is done on. They resolve what is left of the lobe at the scale of the texel, or all
 /// of it where it is wider.
 int near_rows(const sphere::AnyParameterization& source, double texel, int degree) {
-  const double rows = std::min((source.spec() == "latlong" ? 2.4 : 2.8) * kPi / texel, 1.8 * degree);
+  const double rows = std::min((source.spec() == "latlong" ? 2.3 : 2.8) * kPi / texel, 1.8 * degree);
   return std::max(32, static_cast<int>(std::ceil(rows / 16)) * 16);
 }
 

@@ -50,7 +50,7 @@ void to_spline_columns(Level& grid, int first, int last) {
 }
 
 void to_splines(std::span<Level> grids, const Monitor& monitor) {
-  constexpr int kColumns = 64;
+  constexpr int kColumns = 16;
   struct Strip {
     std::size_t grid;
     int first, last;
