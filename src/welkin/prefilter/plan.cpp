@@ -105,9 +105,9 @@ int far_degree(int rows) {
 
 /// Throws when a near part's tables and rows would take more memory than is reasonable.
 void check_near_size(int rows, int channels) {
+  // Tables, masses and results; the bands of rows between are small.
   const double n = rows, orders = 1.2 * n;
-  const double bytes =
-      4 * (orders / 8 * 30 * n + 4 * orders * std::min(channels, 3) * n + 2.4 * n * n * channels);
+  const double bytes = 4 * (orders / 8 * 30 * n / 2 + 4.4 * n * n * channels);
   constexpr double kMost = 24e9;
   if (bytes > kMost) {
     throw Error("prefilter: so narrow a lobe on so fine a level would take " +

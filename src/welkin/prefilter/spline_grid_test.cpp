@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -100,6 +101,27 @@ TEST(SplineGrid, FollowsTheFunctionBetweenPolesAndSeam) {
     before = error;
   }
   EXPECT_LT(before, 1e-5);
+}
+
+/// A channel of the rows that are wanted is filled, and nothing else.
+TEST(SplineGrid, TakesRowsFromLanes) {
+  constexpr int kWidth = 150;
+  Level grid(1, kWidth, 20, 3);
+  std::vector<float> lanes;
+  for (int i = 0; i < kWidth * 16; ++i) lanes.push_back(static_cast<float>(i + 1));
+  std::array<float*, 16> rows{};
+  for (int lane = 0; lane < 16; lane += 3)
+    rows[static_cast<std::size_t>(lane)] = grid.chart(0).row(lane + 2) + 1;
+  store_lanes(lanes.data(), rows, grid);
+  for (int y = 0; y < 20; ++y) {
+    const bool wanted = y >= 2 && y < 18 && (y - 2) % 3 == 0;
+    for (int x = 0; x < kWidth; ++x) {
+      const float* texel = grid.chart(0).row(y) + x * 3;
+      EXPECT_EQ(texel[0], 0);
+      EXPECT_EQ(texel[1], wanted ? static_cast<float>(x * 16 + y - 2 + 1) : 0.0f) << x << ' ' << y;
+      EXPECT_EQ(texel[2], 0);
+    }
+  }
 }
 
 }  // namespace
