@@ -91,10 +91,13 @@ bool is_split(const lobe::AnyLobe& lobe, int degree) {
   return degree > kMostDegree && lobe::angle_holding(lobe, 0.5) < 0.2;
 }
 
-/// Rows that a near part is done on. They resolve what is left of the lobe at the scale of the texel, or all
-/// of it where it is wider.
-int near_rows(const sphere::AnyParameterization& source, double texel, int degree) {
-  const double rows = std::min((source.spec() == "latlong" ? 2.3 : 2.8) * kPi / texel, 1.8 * degree);
+/// Rows that a near part is done on. They resolve what is left of the lobe at the scale of `texel`, the wider
+/// one of the source and the level, or all of it where it is wider. More of them where that is the source's,
+/// whose edges then show.
+int near_rows(const sphere::AnyParameterization& source, double source_texel, double texel, int degree) {
+  const double of_latlong = source_texel < texel ? 2.3 : 2.65;
+  const double per_texel = source.spec() == "latlong" ? of_latlong : 2.8;
+  const double rows = std::min(per_texel * kPi / texel, 1.8 * degree);
   return std::max(32, static_cast<int>(std::ceil(rows / 16)) * 16);
 }
 
@@ -166,7 +169,7 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
     choices[i] = {widen(level.lobe, texel_of(i), options.tolerance / 5), 0};
     Choice& choice = *choices[i];
     if (is_split(level.lobe, choice.lobe.degree())) {
-      choice.near_rows = near_rows(source.parameterization, texel_of(i), choice.lobe.degree());
+      choice.near_rows = near_rows(source.parameterization, source_texel, texel_of(i), choice.lobe.degree());
       check_near_size(choice.near_rows, source.channels);
     }
     tables->degree =
