@@ -58,6 +58,10 @@ bool has_plain_rows(const AnyParameterization& source, ChartSize size) {
   return source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width);
 }
 
+/// So many rows tell well enough where a sun is for the dim places on whose horizon it stands, however wide
+/// the lobe.
+constexpr int kSunRows = 450;
+
 /// How many columns of the picture can be one of the masses', a power of two, so that `least` are left.
 int columns_per_mass(int width, int least) {
   int columns = 1;
@@ -168,7 +172,10 @@ ColumnSpread ColumnSpread::boxes() {
 }
 
 MomentPlan::MomentPlan(const AnyParameterization& source, ChartSize size, int degree) {
-  const int least = std::max(16, static_cast<int>(1.42 * degree));
+  const double texel =
+      std::sqrt(source.coverage() / (static_cast<double>(source.charts()) * size.width * size.height));
+  const int least = std::max(
+      {16, static_cast<int>(1.42 * degree), std::min(kSunRows, static_cast<int>(0.9 * kPi / texel))});
   // Columns far wider than what the lobes resolve are no boxes to be done along the row alone.
   if (!has_plain_rows(source, size) || (degree > size.width && size.height > size.width)) {
     width = fft_length(std::max(2 * least + least / 4, 64));

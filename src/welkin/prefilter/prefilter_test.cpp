@@ -76,5 +76,29 @@ TEST(Prefilter, DiscsAreSummedUpToTheirRims) {
     compare(s, kTargets[which++], 0, 7);
 }
 
+/// A sun ten million times as bright as the rest, for places on whose horizon it stands: what is left of it
+/// is small, and the rest is dark.
+TEST(Prefilter, SunsMayStandOnTheHorizon) {
+  Map source = filled("latlong", 1024, 512, 0.01f);
+  for (const int y : {227, 228}) {
+    for (const int x : {400, 401}) *source.level.chart(0).at(x, y) = 1e5f;
+  }
+  fill_borders(source);
+  const Vec3d sun = source.parameterization.to_sphere(0, 401.0 / 1024, 228.0 / 512);
+  const Map level = prefiltered(source, "latlong", {64, 32}, "lambert");
+  std::vector<Vec3d> directions;
+  std::vector<double> values;
+  cases::for_each_place(level, [&](int chart, int x, int y) {
+    const Vec3d d = cases::direction_at(level, chart, x, y);
+    if (std::fabs(dot(d, sun)) > 0.02) return;
+    directions.push_back(d);
+    values.push_back(static_cast<double>(*level.level.chart(chart).at(x, y)));
+  });
+  ASSERT_GE(directions.size(), 10u);
+  std::vector<double> expected(directions.size());
+  PrefilterReference(source).evaluate(AnyLobe::make("lambert"), directions, expected);
+  for (std::size_t i = 0; i < directions.size(); ++i) EXPECT_NEAR(values[i] / expected[i], 1, 0.03);
+}
+
 }  // namespace
 }  // namespace welkin
