@@ -78,6 +78,9 @@ PrefilterReference::PrefilterReference(const Map& source)
       orientation_(source.orientation),
       size_{source.width(), source.height()},
       channels_(static_cast<std::size_t>(source.channels())),
+      limits_(prefilter::texel_limits(parameterization_, size_)),
+      mean_texel_(std::sqrt(parameterization_.coverage() /
+                            (static_cast<double>(source.charts()) * size_.width * size_.height))),
       integral_(channels_) {
   std::size_t texel = 0;
   for (int chart = 0; chart < source.charts(); ++chart) {
@@ -104,11 +107,14 @@ void PrefilterReference::add_texel(std::size_t texel, const float* radiance, boo
   std::vector<TexelPoint> points;
   prefilter::append_gauss_points(parameterization_, cell, points);
   const Vec3d a = points[3].direction - points[0].direction, b = points[2].direction - points[1].direction;
-  const double size = 1.5 * std::max(dot(a, a), dot(b, b));
+  double size = 1.5 * std::max(dot(a, a), dot(b, b));
   if (!plain) {
+    // As close together as the points of an average texel.
+    prefilter::CellLimits limits = limits_;
+    limits.side = mean_texel_;
+    size = mean_texel_ * mean_texel_;
     points.clear();
-    prefilter::append_points(parameterization_, cell, prefilter::texel_limits(parameterization_, size_),
-                             points);
+    prefilter::append_points(parameterization_, cell, limits, points);
   }
   double total = 0;
   for (const TexelPoint& point : points) total += point.solid_angle;
@@ -130,7 +136,8 @@ void PrefilterReference::add_texel(std::size_t texel, const float* radiance, boo
 }
 
 double PrefilterReference::near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale,
-                                      const ChartCell& cell, bool plain) const {
+                                      const ChartCell& cell, bool plain,
+                                      std::vector<TexelPoint>& points) const {
   const auto at = [&](double across, double down) {
     return parameterization_.to_sphere(cell.chart, cell.u + across * cell.width, cell.v + down * cell.height);
   };
@@ -140,16 +147,17 @@ double PrefilterReference::near_texel(const lobe::AnyLobe& lobe, const Vec3d& di
   double sum = 0;
   if (size > 1e-20 && scale.coarse(size, dot(away, away) / 2)) {
     for (int k = 0; k < 4; ++k) {
-      sum += near_texel(lobe, direction, scale, cell.part(k % 2, 2, k / 2, 2), plain);
+      sum += near_texel(lobe, direction, scale, cell.part(k % 2, 2, k / 2, 2), plain, points);
     }
     return sum;
   }
-  std::vector<TexelPoint> points;
+  points.clear();
   if (plain) {
     prefilter::append_gauss_points(parameterization_, cell, points);
   } else {
-    prefilter::append_points(parameterization_, cell, prefilter::texel_limits(parameterization_, size_),
-                             points);
+    prefilter::CellLimits limits = limits_;
+    limits.rim_depth = 0;
+    prefilter::append_points(parameterization_, cell, limits, points);
   }
   for (const TexelPoint& point : points) {
     const Vec3d d = point.direction - direction;
@@ -162,6 +170,7 @@ void PrefilterReference::sum_plain(const Weights& weights, const Scale& scale, c
                                    double* sum) const {
   constexpr std::size_t kBlock = 512;
   double s[4 * kBlock], weight[4 * kBlock];
+  std::vector<TexelPoint> near;
   const std::size_t texels = plain_.texel.size();
   for (std::size_t first = 0; first < texels; first += kBlock) {
     const std::size_t count = std::min(kBlock, texels - first);
@@ -175,7 +184,7 @@ void PrefilterReference::sum_plain(const Weights& weights, const Scale& scale, c
       const std::size_t k = first + i;
       double integral = 0;
       if (scale.coarse(plain_.size[k], s[4 * i])) {
-        integral = near_texel(weights.lobe(), r, scale, cell_of(plain_.texel[k]), true);
+        integral = near_texel(weights.lobe(), r, scale, cell_of(plain_.texel[k]), true, near);
       } else {
         for (std::size_t j = 0; j < 4; ++j) integral += weight[4 * i + j] * plain_.solid_angle[4 * k + j];
       }
@@ -189,6 +198,7 @@ void PrefilterReference::sum_plain(const Weights& weights, const Scale& scale, c
 void PrefilterReference::sum_irregular(const Weights& weights, const Scale& scale, const Vec3d& r,
                                        double* sum) const {
   std::vector<double> s, weight;
+  std::vector<TexelPoint> near;
   for (const Irregular& texel : irregular_) {
     const std::size_t count = texel.points.size();
     s.resize(count);
@@ -198,8 +208,8 @@ void PrefilterReference::sum_irregular(const Weights& weights, const Scale& scal
       s[i] = 0.5 * dot(d, d);
     }
     double integral = 0;
-    if (scale.coarse(texel.size, s[0])) {
-      integral = near_texel(weights.lobe(), r, scale, cell_of(texel.texel), false);
+    if (scale.coarse(texel.size, *std::min_element(s.begin(), s.end()))) {
+      integral = near_texel(weights.lobe(), r, scale, cell_of(texel.texel), false, near);
     } else {
       weights(s.data(), weight.data(), count);
       for (std::size_t i = 0; i < count; ++i) integral += weight[i] * texel.points[i].solid_angle;

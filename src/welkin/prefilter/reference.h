@@ -50,8 +50,10 @@ class PrefilterReference {
 
   void add_texel(std::size_t texel, const float* radiance, bool plain);
   prefilter::ChartCell cell_of(std::size_t texel) const;
+  /// `points` is scratch.
   double near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale,
-                    const prefilter::ChartCell& cell, bool plain) const;
+                    const prefilter::ChartCell& cell, bool plain,
+                    std::vector<prefilter::TexelPoint>& points) const;
   /// Add to sum[channel] the texels' radiance times the integral of the lobe over them.
   void sum_plain(const Weights& weights, const Scale& scale, const Vec3d& direction, double* sum) const;
   void sum_irregular(const Weights& weights, const Scale& scale, const Vec3d& direction, double* sum) const;
@@ -60,6 +62,8 @@ class PrefilterReference {
   Matrix3 orientation_;
   ChartSize size_;
   std::size_t channels_;
+  prefilter::CellLimits limits_;
+  double mean_texel_;  ///< a side, radians
   Plain plain_;
   std::vector<Irregular> irregular_;
   std::vector<double> integral_;

@@ -235,10 +235,10 @@ class Scatter {
       for (std::size_t i = 0; i < count; ++i) points.weight[i] = density[i] * area;
       if (cells.across > 0) {
         add(points, chart, row, texels, deposit);
-      } else {
-        for (std::size_t i = 0; i < count; ++i) {
-          together.merge(i, points.x[i], points.y[i], points.z[i], points.weight[i]);
-        }
+        continue;
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        together.merge(i, points.x[i], points.y[i], points.z[i], points.weight[i]);
       }
     }
     if (cells.across == 0) add(together, chart, row, texels, deposit);
@@ -250,14 +250,15 @@ class Scatter {
     limits.side = static_cast<double>(step_);
     std::vector<TexelPoint> exact;
     append_points(map_.parameterization, texel_cell(size_, chart, texel.x, row), limits, exact);
-    for (std::size_t first = 0, i = 0; first < exact.size(); first = i) {
+    for (std::size_t i = 0; i < exact.size();) {
+      const Vec3d first = exact[i].direction;
       Points point(1);
-      for (; i < exact.size() && length(exact[i].direction - exact[first].direction) <= limits.side / 4;
-           ++i) {
+      do {
         const Vec3d d = exact[i].direction;
         point.merge(0, static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
                     static_cast<float>(exact[i].solid_angle));
-      }
+        ++i;
+      } while (i < exact.size() && length(exact[i].direction - first) <= limits.side / 4);
       add(point, chart, row, {&texel, 1}, deposit);
     }
   }

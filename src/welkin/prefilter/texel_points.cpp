@@ -17,10 +17,7 @@ const double kGauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)
 /// A density that changes by this when a cell is cut up has a kink there, or the cell is large.
 constexpr float kPlain = 1e-5f;
 
-/// A cell that a rim cuts is cut up this often before it is summed in strips.
-constexpr int kRimDepth = 3;
-
-/// And one with a kink at most, and a large one.
+/// How often a cell with a kink is cut up at most, and a large one.
 constexpr int kKinkDepth = 7, kLargeDepth = 12;
 
 /// Cuts a cell up.
@@ -33,13 +30,13 @@ class CellPoints {
     if (!full_) {
       const Corners corners(p_, cell);
       const int valid = corners.count() + valid_points(cell);
-      if (valid == 0 && depth > 0) return;
+      if (valid == 0 && depth >= std::min(1, limits_.rim_depth)) return;
       if (valid < 8) {
-        if (depth < kRimDepth || is_large(cell, depth)) return add_quarters(cell, depth);
+        if (depth < limits_.rim_depth || is_large(cell, depth, 0.25)) return add_quarters(cell, depth);
         return corners.differ_along_u() ? add_strips<true>(cell) : add_strips<false>(cell);
       }
     }
-    if (is_large(cell, depth)) return add_quarters(cell, depth);
+    if (is_large(cell, depth, 1)) return add_quarters(cell, depth);
     if (depth < kKinkDepth) {
       double finer = 0;
       for (int k = 0; k < 4; ++k) finer += solid_angle(cell.part(k % 2, 2, k / 2, 2));
@@ -82,17 +79,19 @@ class CellPoints {
     return count;
   }
 
+  /// By 2×2 points, those that are valid.
   double solid_angle(const ChartCell& cell) const {
     double sum = 0;
     for (int k = 0; k < 4; ++k) {
-      sum += p_.solid_angle_density(cell.chart, cell.u + kGauss[k % 2] * cell.width,
-                                    cell.v + kGauss[k / 2] * cell.height);
+      const double u = cell.u + kGauss[k % 2] * cell.width, v = cell.v + kGauss[k / 2] * cell.height;
+      if (full_ || p_.valid(cell.chart, u, v)) sum += p_.solid_angle_density(cell.chart, u, v);
     }
     return sum * cell.width * cell.height / 4;
   }
 
-  bool is_large(const ChartCell& cell, int depth) const {
-    return depth < kLargeDepth && solid_angle(cell) > limits_.side * limits_.side;
+  /// Beside `part` of the square of the side.
+  bool is_large(const ChartCell& cell, int depth, double part) const {
+    return depth < kLargeDepth && solid_angle(cell) > part * limits_.side * limits_.side;
   }
 
   /// Twice the longer half of each.
@@ -112,7 +111,7 @@ class CellPoints {
     for (int k = 0; k < 4; ++k) add(cell.part(k % 2, 2, k / 2, 2), depth + 1);
   }
 
-  /// Four strips along u, or along v, each from rim to rim.
+  /// Four strips along u, or along v, each from rim to rim or to the cell's ends.
   template <bool kAlongU>
   void add_strips(const ChartCell& cell) {
     static const lobe::Rule rule = lobe::gauss_legendre(4);
@@ -146,8 +145,7 @@ class CellPoints {
           const double root = (k / 4 + 0.5 + 0.5 * rule.places[i]) / panels;
           const double along = end + (middle - end) * root * root;
           const double density = p_.solid_angle_density(cell.chart, u(along), v(along));
-          points_.push_back(
-              {u(along), v(along), direction(along), density * share * rule.weights[i] * root / panels});
+          points_.push_back({direction(along), density * share * rule.weights[i] * root / panels});
         }
       }
     }
@@ -191,7 +189,7 @@ void append_gauss_points(const AnyParameterization& p, const ChartCell& cell,
   const double area = cell.width * cell.height / 4;
   for (int k = 0; k < 4; ++k) {
     const double u = cell.u + kGauss[k % 2] * cell.width, v = cell.v + kGauss[k / 2] * cell.height;
-    points.push_back({u, v, p.to_sphere(cell.chart, u, v), p.solid_angle_density(cell.chart, u, v) * area});
+    points.push_back({p.to_sphere(cell.chart, u, v), p.solid_angle_density(cell.chart, u, v) * area});
   }
 }
 

@@ -23,7 +23,6 @@ struct ChartCell {
 ChartCell texel_cell(ChartSize size, int chart, int x, int y);
 
 struct TexelPoint {
-  double u, v;
   Vec3d direction;
   double solid_angle;
 };
@@ -36,6 +35,7 @@ void append_gauss_points(const sphere::AnyParameterization& p, const ChartCell& 
 struct CellLimits {
   double solid_angle;  ///< sr: until that would change it by less
   double side = 10;    ///< radians: until points are no farther apart
+  int rim_depth = 3;   ///< so often at a rim, before that is followed in strips
 };
 
 /// Points of any cell, cut up to these limits; of its valid part alone. Where a rim bounds it a part is
