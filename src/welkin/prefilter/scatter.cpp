@@ -251,26 +251,29 @@ class Scatter {
     std::vector<TexelPoint> exact;
     append_points(map_.parameterization, texel_cell(size_, chart, texel.x, row), limits, exact);
     for (std::size_t i = 0; i < exact.size();) {
-      const Vec3d first = exact[i].direction;
-      Points point(1);
-      do {
-        const Vec3d d = exact[i].direction;
-        point.merge(0, static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
-                    static_cast<float>(exact[i].solid_angle));
-        ++i;
-      } while (i < exact.size() && length(exact[i].direction - first) <= limits.side / 4);
-      add(point, chart, row, {&texel, 1}, deposit);
+      Points points(Points::kMost);
+      points.count = 0;
+      for (; points.count < Points::kMost && i < exact.size(); ++points.count) {
+        const Vec3d first = exact[i].direction;
+        do {
+          const Vec3d d = exact[i].direction;
+          points.merge(points.count, static_cast<float>(d.x), static_cast<float>(d.y),
+                       static_cast<float>(d.z), static_cast<float>(exact[i].solid_angle));
+          ++i;
+        } while (i < exact.size() && length(exact[i].direction - first) <= limits.side / 4);
+      }
+      add(points, chart, row, {&texel, 1}, deposit);
     }
   }
 
-  /// Deposits the texels' radiance at one point of each.
+  /// Deposits the texels' radiance at one point of each, or one texel's at all of them.
   void add(const Points& points, int chart, int row, std::span<const Texel> texels, Deposit& deposit) const {
     alignas(64) float to_chart[Points::kMost], u[Points::kMost], v[Points::kMost];
     grid_.kernels().from_sphere(grid_.self(), points.x, points.y, points.z, to_chart, u, v, points.count);
     for (std::size_t i = 0; i < points.count; ++i) {
       // Past the last channel a texel's neighbour or border is read: any values will do.
-      if (points.weight[i] > 0)
-        deposit.add(u[i], v[i], map_.level.chart(chart).at(texels[i].x, row), points.weight[i]);
+      const int x = texels[std::min(i, texels.size() - 1)].x;
+      if (points.weight[i] > 0) deposit.add(u[i], v[i], map_.level.chart(chart).at(x, row), points.weight[i]);
     }
   }
 
