@@ -119,7 +119,12 @@ std::vector<std::optional<std::vector<double>>> integrals_of_levels(const Map& s
   for (std::size_t i = 0; i < lobes.size(); ++i) {
     if (integrals[i] || lobes[i].mirror()) continue;
     const PrefilterPlan plan(shape, source.parameterization, {{shape.size, lobes[i]}}, prefilter);
-    integrals[i] = integral_of_texels(plan.run(source, {nullptr, options.monitor.cancelled}).front());
+    const Map map = std::move(plan.run(source, {nullptr, options.monitor.cancelled}).front());
+    // About a light at a pole there are few rows: texels times solid angles are a poor sum of what rows
+    // resolve.
+    const bool resolved =
+        source.parameterization.spec() == "latlong" && lobes[i].width() > 3 * kPi / map.height();
+    integrals[i] = resolved ? grid_integral(map) : integral_of_texels(map);
   }
   return integrals;
 }

@@ -17,7 +17,8 @@
 ///   - A narrower one: at the source's own texels, weighted by solid angle. These texels are also what the
 ///     light comes from. Σ_i Ω_i ∫_texel w(r_i·l) dω is the texel's own solid angle for a lobe far narrower
 ///     than a texel, and on an even lattice for every lobe, as the texels tile it. What is left comes of the
-///     texels' uneven sizes, and falls with their square: 2e-3 for texels of 10°, 3e-6 for 0.35°.
+///     texels' uneven sizes, and falls with their square: 2e-3 for texels of 10°, 3e-6 for 0.35°. About a
+///     pole of a lat-long there are few of them: where its rows resolve the lobe, they have Fejér's weights.
 /// The second needs a source of the whole sphere, for light spills over the edge of one that shows a part.
 namespace welkin::prefilter {
 
@@ -37,7 +38,7 @@ std::vector<std::optional<std::vector<double>>> integrals_of_levels(const Map& s
 /// How the grid stands.
 Matrix3 energy_grid_orientation();
 
-/// ∫ map dω, texel by texel, whose solid angles are by four points each.
+/// ∫ map dω, texel by texel: see summed_solid_angles.
 std::vector<double> integral_of_texels(const Map& map);
 /// ∫ |map| dω.
 std::vector<double> integral_of_magnitudes(const Map& map);

@@ -347,6 +347,17 @@ TEST(VerifyEnergy, TheSourcesTexelsAddUpForNarrowLobes) {
   }
 }
 
+/// A light at the very pole, and a lobe that a lat-long's rows resolve, but the grid for wider ones doesn't.
+TEST(VerifyEnergy, LightAtAPoleIsAddedUp) {
+  const AnyLobe lobe = AnyLobe::make("ggx,roughness=0.125");
+  ASSERT_FALSE(prefilter::energy_rows(lobe));
+  Map source(AnyParameterization::make("latlong"), 1024, 512, 1);
+  for (int x = 0; x < source.width(); ++x) *source.level.chart(0).at(x, 0) = 1e5f;
+  fill_borders(source);
+  const auto integrals = prefilter::integrals_of_levels(source, {{lobe}}, {});
+  EXPECT_NEAR(integrals.at(0).value()[0] / prefilter::integral_of_texels(source)[0], 1, 2e-5);
+}
+
 /// The plan's own bounds for tiny maps: energy 1e-4, furnace 2e-5, 2e-4 where a rim ends the map.
 TEST(VerifyEnergy, PlansKeepEnergyAndConstants) {
   for (const Map& source : {sun("latlong", 64, 32), sun("latlong", 37, 19), sun("cube", 33, 33),
