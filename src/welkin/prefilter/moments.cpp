@@ -9,6 +9,7 @@
 #include "welkin/prefilter/kernels.h"
 #include "welkin/prefilter/lagrange.h"
 #include "welkin/prefilter/scatter.h"
+#include "welkin/prefilter/texel_points.h"
 
 namespace welkin::prefilter {
 namespace {
@@ -172,8 +173,7 @@ ColumnSpread ColumnSpread::boxes() {
 }
 
 MomentPlan::MomentPlan(const AnyParameterization& source, ChartSize size, int degree) {
-  const double texel =
-      std::sqrt(source.coverage() / (static_cast<double>(source.charts()) * size.width * size.height));
+  const double texel = mean_texel(source, size);
   const int least = std::max(
       {16, static_cast<int>(1.42 * degree), std::min(kSunRows, static_cast<int>(0.9 * kPi / texel))});
   // Columns far wider than what the lobes resolve are no boxes to be done along the row alone.

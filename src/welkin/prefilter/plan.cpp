@@ -10,6 +10,7 @@
 #include "welkin/prefilter/source_faults.h"
 #include "welkin/prefilter/spline_grid.h"
 #include "welkin/prefilter/tables.h"
+#include "welkin/prefilter/texel_points.h"
 #include "welkin/prefilter/widen.h"
 
 namespace welkin {
@@ -27,11 +28,6 @@ void check(const PrefilterShape& source, const std::vector<PrefilterLevel>& leve
   if (!(options.tolerance >= 1e-6 && options.tolerance <= 0.1)) {
     throw Error("prefilter: the tolerance is not in 1e-6…0.1");
   }
-}
-
-/// A side of a texel, radians, on average.
-double mean_texel(const sphere::AnyParameterization& p, ChartSize size) {
-  return std::sqrt(p.coverage() / (static_cast<double>(p.charts()) * size.width * size.height));
 }
 
 /// Throws for what can't be convolved.

@@ -79,8 +79,7 @@ PrefilterReference::PrefilterReference(const Map& source)
       size_{source.width(), source.height()},
       channels_(static_cast<std::size_t>(source.channels())),
       limits_(prefilter::texel_limits(parameterization_, size_)),
-      mean_texel_(std::sqrt(parameterization_.coverage() /
-                            (static_cast<double>(source.charts()) * size_.width * size_.height))),
+      mean_texel_(prefilter::mean_texel(parameterization_, size_)),
       integral_(channels_) {
   std::size_t texel = 0;
   for (int chart = 0; chart < source.charts(); ++chart) {

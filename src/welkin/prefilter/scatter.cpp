@@ -93,9 +93,6 @@ class Deposit {
   std::vector<float> masses_;
 };
 
-/// Gauss's two points in 0 … 1.
-constexpr double kGauss[2] = {0.211324865405187, 0.788675134594813};
-
 /// A batch of points on their way to the grid. Directions needn't be of length 1.
 struct Points {
   static constexpr std::size_t kMost = 256;

@@ -11,9 +11,6 @@ namespace {
 
 using sphere::AnyParameterization;
 
-/// Gauss's two points in 0 … 1.
-const double kGauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
-
 /// A density that changes by this when a cell is cut up has a kink there, or the cell is large.
 constexpr float kPlain = 1e-5f;
 
@@ -198,8 +195,13 @@ void append_points(const AnyParameterization& p, const ChartCell& cell, const Ce
   CellPoints(p, limits, points).add(cell, 0);
 }
 
+double mean_texel(const AnyParameterization& p, ChartSize size) {
+  return std::sqrt(p.coverage() / (static_cast<double>(p.charts()) * size.width * size.height));
+}
+
 CellLimits texel_limits(const AnyParameterization& p, ChartSize size) {
-  return {1e-6 * p.coverage() / (static_cast<double>(p.charts()) * size.width * size.height)};
+  const double texel = mean_texel(p, size);
+  return {1e-6 * texel * texel};
 }
 
 std::vector<TexelKind> texel_kinds(const AnyParameterization& p, ChartSize size, int chart, int row) {

@@ -9,6 +9,9 @@
 /// diagonals of an octahedron, nor for those that are a good part of the sphere.
 namespace welkin::prefilter {
 
+/// Gauss's two points in 0 … 1: ½ ∓ 1/√12.
+inline constexpr double kGauss[2] = {0.21132486540518713, 0.78867513459481287};
+
 /// A rectangle of a chart, in its u and v.
 struct ChartCell {
   int chart;
@@ -42,6 +45,9 @@ struct CellLimits {
 /// missed, of a texel about 1e-4, of the quarter of a whole disc 6e-4. None when no place of it is valid.
 void append_points(const sphere::AnyParameterization& p, const ChartCell& cell, const CellLimits& limits,
                    std::vector<TexelPoint>& points);
+
+/// A side of a texel of average solid angle, radians.
+double mean_texel(const sphere::AnyParameterization& p, ChartSize size);
 
 /// A millionth of a texel of average solid angle.
 CellLimits texel_limits(const sphere::AnyParameterization& p, ChartSize size);
