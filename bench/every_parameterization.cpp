@@ -2,7 +2,7 @@
 
 #include "harness.h"
 #include "pictures.h"
-#include "welkin/map/resample.h"
+#include "welkin/filter/resample.h"
 
 int main() {
   using namespace welkin;

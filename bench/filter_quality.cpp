@@ -6,7 +6,7 @@
 
 #include "harness.h"
 #include "pictures.h"
-#include "welkin/map/resample.h"
+#include "welkin/filter/resample.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "lighting.h"
-#include "welkin/map/map_file.h"
+#include "welkin/map_file/map_file.h"
 
 int main(int argc, char** argv) try {
   using namespace welkin;

@@ -9,7 +9,8 @@
 #include "harness.h"
 #include "pictures.h"
 #include "welkin/map/chain.h"
-#include "welkin/map/render_synth.h"
+#include "welkin/map_file/chain_file.h"
+#include "welkin/synth/render_synth.h"
 
 namespace welkin::bench {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "harness.h"
+#include "welkin/filter/resample.h"
 #include "welkin/map/borders.h"
-#include "welkin/map/map_file.h"
-#include "welkin/map/render_synth.h"
-#include "welkin/map/resample.h"
+#include "welkin/map_file/map_file.h"
+#include "welkin/synth/render_synth.h"
 
 namespace welkin::bench {
 namespace {

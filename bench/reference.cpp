@@ -9,9 +9,9 @@
 #include <exception>
 #include <string>
 
-#include "welkin/map/layout.h"
-#include "welkin/map/map_file.h"
-#include "welkin/map/resample_reference.h"
+#include "welkin/filter/resample_reference.h"
+#include "welkin/map_file/layout.h"
+#include "welkin/map_file/map_file.h"
 
 int main(int argc, char** argv) try {
   using namespace welkin;

@@ -7,8 +7,8 @@
 
 #include "harness.h"
 #include "pictures.h"
-#include "welkin/map/fetch.h"
-#include "welkin/map/resample.h"
+#include "welkin/filter/fetch.h"
+#include "welkin/filter/resample.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include "harness.h"
 #include "pictures.h"
+#include "welkin/filter/resample.h"
 #include "welkin/map/borders.h"
-#include "welkin/map/resample.h"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "welkin/base/number_text.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
-#include "welkin/map/convention.h"
+#include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "progress.h"
 #include "welkin/io/output_file.h"
-#include "welkin/map/convention.h"
+#include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
 namespace {

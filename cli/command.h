@@ -11,8 +11,8 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/io/image_file.h"
-#include "welkin/map/chain.h"
-#include "welkin/map/map_file.h"
+#include "welkin/map_file/chain_file.h"
+#include "welkin/map_file/map_file.h"
 
 /// What the subcommands share. Each is one file with one add_… function: it declares its options, and its
 /// callback parses them, calls the library and prints.

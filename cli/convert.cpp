@@ -6,10 +6,10 @@
 
 #include "command.h"
 #include "progress.h"
+#include "welkin/filter/resample.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
-#include "welkin/map/convention.h"
-#include "welkin/map/resample.h"
+#include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
 namespace {

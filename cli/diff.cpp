@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "welkin/map/compare.h"
+#include "welkin/measure/compare.h"
 
 namespace welkin::cli {
 namespace {

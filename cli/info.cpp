@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "welkin/map/safety_border.h"
-#include "welkin/map/statistics.h"
+#include "welkin/map_file/safety_border.h"
+#include "welkin/measure/statistics.h"
 
 namespace welkin::cli {
 namespace {

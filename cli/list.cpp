@@ -4,10 +4,10 @@
 #include <map>
 
 #include "command.h"
+#include "welkin/filter/resample.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/lobe/roughness_curve.h"
-#include "welkin/map/convention.h"
-#include "welkin/map/resample.h"
+#include "welkin/sphere/convention.h"
 #include "welkin/synth/synth.h"
 
 namespace welkin::cli {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "plot.h"
-#include "welkin/map/density.h"
-#include "welkin/map/mip_sheet.h"
+#include "welkin/plot/draw_density.h"
+#include "welkin/plot/mip_sheet.h"
 
 namespace welkin::cli {
 namespace {
@@ -33,7 +33,8 @@ void PlotDensity::run() const {
   for (const auto& p : list) {
     const DensityReport report = density_of(p, size);
     if (!out.empty()) {
-      const io::WritePart part{"", static_cast<const Image&>(report.picture).view(), {"R", "G", "B"}};
+      const Image picture = draw_density(p, report);
+      const io::WritePart part{"", picture.view(), {"R", "G", "B"}};
       io::write(out, {&part, 1});
     }
     if (!json && all.empty()) {

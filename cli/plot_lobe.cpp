@@ -7,8 +7,8 @@
 #include "welkin/base/number_text.h"
 #include "welkin/lobe/energy.h"
 #include "welkin/lobe/zonal.h"
-#include "welkin/map/draw_lobes.h"
 #include "welkin/math/scalar.h"
+#include "welkin/plot/draw_lobes.h"
 
 namespace welkin::cli {
 namespace {

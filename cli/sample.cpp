@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "command.h"
+#include "welkin/filter/sample.h"
 #include "welkin/map/pyramid.h"
-#include "welkin/map/sample.h"
 
 namespace welkin::cli {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
 #include "command.h"
-#include "welkin/map/convention.h"
-#include "welkin/map/render_synth.h"
+#include "welkin/sphere/convention.h"
+#include "welkin/synth/render_synth.h"
 
 namespace welkin::cli {
 namespace {

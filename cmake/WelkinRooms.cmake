@@ -1,8 +1,21 @@
 # A room is a folder of src/welkin: one object library, its tests beside its code.
 #
-#   welkin_room(NAME SOURCES … USES rooms… LINK libraries… TESTS …)
+#   welkin_room(NAME SOURCES … LINK libraries… TESTS …)
 #
-# Rooms link only upward (see docs/architecture.md); tests/rooms_test holds the includes to the same rule.
+# src/welkin/rooms.txt has the rooms' order, and which rooms each uses; tests/rooms_test.sh holds the includes to it.
+
+# welkin_read_rooms(FILE): sets WELKIN_ROOM_NAMES, and WELKIN_USES_<room> for each.
+macro(welkin_read_rooms file)
+  file(STRINGS ${file} lines REGEX "^[a-z_]+:")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  set(WELKIN_ROOM_NAMES)
+  foreach(line IN LISTS lines)
+    string(REGEX MATCH "^[a-z_]+" room "${line}")
+    string(REGEX REPLACE "^[a-z_]+: *" "" uses "${line}")
+    string(REPLACE " " ";" WELKIN_USES_${room} "${uses}")
+    list(APPEND WELKIN_ROOM_NAMES ${room})
+  endforeach()
+endmacro()
 
 function(welkin_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion)
@@ -20,12 +33,12 @@ function(welkin_warnings target)
 endfunction()
 
 function(welkin_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LINK;TESTS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;TESTS" ${ARGN})
   add_library(welkin_${name} OBJECT ${ROOM_SOURCES})
   target_compile_features(welkin_${name} PUBLIC cxx_std_20)
   set_target_properties(welkin_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_include_directories(welkin_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
-  foreach(room IN LISTS ROOM_USES)
+  foreach(room IN LISTS WELKIN_USES_${name})
     target_link_libraries(welkin_${name} PUBLIC welkin_${room})
   endforeach()
   target_link_libraries(welkin_${name} PRIVATE ${ROOM_LINK})

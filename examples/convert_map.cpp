@@ -1,6 +1,6 @@
 // Converts a map of any kind to a cube: convert_map IN OUT
-#include <welkin/map/map_file.h>
-#include <welkin/map/resample.h>
+#include <welkin/filter/resample.h>
+#include <welkin/map_file/map_file.h>
 
 #include <cstdio>
 

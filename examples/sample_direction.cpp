@@ -1,6 +1,6 @@
 // Prints the radiance that comes from a direction, one value per channel: sample_direction MAP X Y Z
-#include <welkin/map/map_file.h>
-#include <welkin/map/sample.h>
+#include <welkin/filter/sample.h>
+#include <welkin/map_file/map_file.h>
 
 #include <cstdio>
 #include <cstdlib>

@@ -20,6 +20,7 @@ fail() {
 
 from_cache() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
 cmake=$(from_cache CMAKE_COMMAND)
+generator=$(from_cache CMAKE_GENERATOR)
 read -ra compiler < <(printf '%s %s\n' "$(from_cache CMAKE_CXX_COMPILER)" "$(from_cache CMAKE_CXX_FLAGS)")
 
 # ---------------------------------------------------------------------------------------------------- the tree
@@ -42,7 +43,7 @@ read -ra static_link_flags < <(flags --static --libs)
 # ----------------------------------------------------------------------------------------------------- headers
 mapfile -t headers < <(cd "$prefix/include" && find welkin -name '*.h' | sort)
 ((${#headers[@]} > 20)) || fail "only ${#headers[@]} headers are installed"
-for wanted in map/map_file.h map/resample.h map/sample.h io/image_file.h sphere/registry.h synth/synth.h; do
+for wanted in map_file/map_file.h filter/resample.h filter/sample.h io/image_file.h sphere/registry.h synth/synth.h; do
   [[ -f $prefix/include/welkin/$wanted ]] || fail "welkin/$wanted is not installed"
 done
 printf '#include <%s>\n' "${headers[@]}" >"$work/all.cpp"
@@ -55,7 +56,7 @@ if grep -oE '[^ ]*/(xsimd|gtest|CLI|fmt|nlohmann|OpenEXR|Imath)/[^ ]*' "$work/al
 
 # ---------------------------------------------------------------------------------------------------- examples
 build_by_find_package() {
-  "$cmake" -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+  "$cmake" -G "$generator" -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_COMPILER="${compiler[0]}" -DCMAKE_CXX_FLAGS="${compiler[*]:1}" && "$cmake" --build "$work/examples"
 }
 build_by_find_package >"$work/cmake.log" 2>&1 || { cat "$work/cmake.log"; fail 'examples/ does not build with find_package(welkin)'; }

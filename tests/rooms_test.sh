@@ -1,17 +1,23 @@
 #!/usr/bin/env bash
 # Holds the tree to its layout (docs/architecture.md):
-#   - a room of src/welkin includes only itself and rooms before it in the order below;
+#   - a room of src/welkin includes only itself and the rooms that src/welkin/rooms.txt lets it use, all of which stand before it;
+#     its tests (*_test.cpp, *_cases.h) may use any room before it;
+#   - the table of rooms in docs/architecture.md names the same ones in the same order;
 #   - no library header includes the command line's libraries, which cost every includer seconds of compile time;
 #   - a source file of over 400 lines says why in its first ten.
 #
 # rooms_test.sh [ROOT]     prints each breach as FILE:LINE: what; fails if there is one.
 set -euo pipefail
 
-rooms=(base math image io sphere synth lobe map prefilter)
 longest_file=400
 
 cd -- "${1:-$(dirname -- "${BASH_SOURCE[0]}")/..}"
 [[ -d src/welkin ]] || { printf '%s has no src/welkin\n' "$PWD" >&2; exit 2; }
+
+mapfile -t lines < <(grep -E '^[a-z_]+:' src/welkin/rooms.txt)
+mapfile -t rooms < <(printf '%s\n' "${lines[@]}" | cut -d: -f1)
+declare -A uses
+for line in "${lines[@]}"; do uses[${line%%:*}]=" ${line#*:} "; done
 
 breaches=0
 breach() {
@@ -27,6 +33,17 @@ place_of() {
   done
 }
 
+for room in "${rooms[@]}"; do
+  for used in ${uses[$room]}; do
+    used_place=$(place_of "$used")
+    [[ -n $used_place ]] && ((used_place < $(place_of "$room"))) || breach "rooms.txt: $room cannot use '$used', which is not above it"
+  done
+  [[ -f src/welkin/$room/CMakeLists.txt ]] || breach "rooms.txt: there is no room src/welkin/$room"
+done
+
+documented=$(sed -nE 's/^\| `([a-z_]+)\/` \|.*/\1/p' docs/architecture.md | head -n ${#rooms[@]} | tr '\n' ' ')
+[[ $documented == "${rooms[*]} " ]] || breach "docs/architecture.md: its table of rooms has $documented, rooms.txt ${rooms[*]}"
+
 includes() { grep -rnE --include='*.h' --include='*.cpp' "$1" "$2" || true; }
 
 # Every include of a room's files leads to itself or upward.
@@ -35,7 +52,7 @@ for folder in src/welkin/*/; do
   room=$(basename "$folder")
   place=$(place_of "$room")
   if [[ -z $place ]]; then
-    breach "$folder: not in the order of rooms (tests/rooms_test.sh)"
+    breach "$folder: not in src/welkin/rooms.txt"
     continue
   fi
   while IFS= read -r hit; do
@@ -54,6 +71,8 @@ for folder in src/welkin/*/; do
       breach "$where: \"$header\": there is no room '$used'"
     elif ((used_place > place)); then
       breach "$where: \"$header\": $room comes before $used and cannot include it"
+    elif [[ $used != "$room" && ${uses[$room]} != *" $used "* && ! ${where%%:*} =~ _(test\.cpp|cases\.h)$ ]]; then
+      breach "$where: \"$header\": rooms.txt does not let $room use $used"
     fi
   done < <(includes '^[[:space:]]*#[[:space:]]*include[[:space:]]*("|<welkin/)' "$folder")
 done

@@ -6,17 +6,18 @@
 
 #include "welkin/lobe/angle.h"
 #include "welkin/lobe/panels.h"
+#include "welkin/math/gauss_legendre.h"
 
 namespace welkin::lobe {
 namespace {
 
 /// ∫ w sin θ dθ between two angles with no breakpoint between them.
 double energy_between(const AnyLobe& lobe, double begin, double end) {
-  static const Rule rule = gauss_legendre(24);
+  static const QuadratureRule rule = gauss_legendre(24);
   const double half = 0.5 * (end - begin), middle = 0.5 * (end + begin);
   double sum = 0;
-  for (std::size_t i = 0; i < rule.places.size(); ++i) {
-    const double angle = middle + half * rule.places[i];
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double angle = middle + half * rule.nodes[i];
     sum += rule.weights[i] * lobe.weight(s_of_angle(angle)) * std::sin(angle);
   }
   return sum * half;

@@ -5,33 +5,20 @@
 #include <cmath>
 
 #include "welkin/lobe/angle.h"
+#include "welkin/math/gauss_legendre.h"
 
 namespace welkin::lobe {
 namespace {
-
-/// P_n(x) and its derivative.
-struct Polynomial {
-  double value, slope;
-};
-Polynomial legendre(int n, double x) {
-  double before = 1, value = x;
-  for (int l = 1; l < n; ++l) {
-    const double next = ((2 * l + 1) * x * value - l * before) / (l + 1);
-    before = value;
-    value = next;
-  }
-  return {value, n * (x * value - before) / (x * x - 1)};
-}
 
 /// A panel of width Δθ turns P_l through k = l Δθ/2 radians on either side of its middle, and n nodes
 /// integrate cos(k x) to (e k/4n)^2n.
 constexpr int kFewNodes = 12, kManyNodes = 32;
 constexpr double kFewReach = 4, kManyReach = 26;
 
-void add_panel(const AnyLobe& lobe, const Rule& rule, double begin, double end, LobeNodes& nodes) {
+void add_panel(const AnyLobe& lobe, const QuadratureRule& rule, double begin, double end, LobeNodes& nodes) {
   const double half = 0.5 * (end - begin), middle = 0.5 * (end + begin);
-  for (std::size_t i = 0; i < rule.places.size(); ++i) {
-    const double angle = middle + half * rule.places[i];
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double angle = middle + half * rule.nodes[i];
     const double s = s_of_angle(angle), weight = lobe.weight(s);
     if (weight == 0) continue;
     nodes.s.push_back(s);
@@ -41,22 +28,6 @@ void add_panel(const AnyLobe& lobe, const Rule& rule, double begin, double end, 
 }
 
 }  // namespace
-
-Rule gauss_legendre(int count) {
-  assert(count >= 2);
-  Rule rule;
-  for (int i = 0; i < count; ++i) {
-    double x = -std::cos(kPi * (i + 0.75) / (count + 0.5));
-    for (int step = 0; step < 6; ++step) {
-      const Polynomial p = legendre(count, x);
-      x -= p.value / p.slope;
-    }
-    const double slope = legendre(count, x).slope;
-    rule.places.push_back(x);
-    rule.weights.push_back(2 / ((1 - x * x) * slope * slope));
-  }
-  return rule;
-}
 
 std::vector<double> panel_edges(const AnyLobe& lobe) {
   assert(lobe.width() >= 1e-8);
@@ -70,13 +41,13 @@ std::vector<double> panel_edges(const AnyLobe& lobe) {
 }
 
 LobeNodes lobe_nodes(const AnyLobe& lobe, int degree) {
-  static const Rule few = gauss_legendre(kFewNodes), many = gauss_legendre(kManyNodes);
+  static const QuadratureRule few = gauss_legendre(kFewNodes), many = gauss_legendre(kManyNodes);
   assert(!lobe.mirror());
   LobeNodes nodes;
   const std::vector<double> edges = panel_edges(lobe);
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const double begin = edges[i], width = edges[i + 1] - begin, reach = 0.5 * degree * width;
-    const Rule& rule = reach <= kFewReach ? few : many;
+    const QuadratureRule& rule = reach <= kFewReach ? few : many;
     const int parts = std::max(1, static_cast<int>(std::ceil(reach / kManyReach)));
     for (int part = 0; part < parts; ++part) {
       add_panel(lobe, rule, begin + width * part / parts, begin + width * (part + 1) / parts, nodes);

@@ -6,14 +6,6 @@
 
 namespace welkin::lobe {
 
-/// Places and weights of a quadrature on [−1, 1].
-struct Rule {
-  std::vector<double> places, weights;
-};
-
-/// Gauss–Legendre: exact for polynomials of degree 2·count − 1.
-Rule gauss_legendre(int count);
-
 /// Places s and weights of a quadrature of the lobe over the sphere: Σ weights[i] f(s[i]) = 2π ∫ w(s) f(s)
 /// ds. Those where w is 0 are left out.
 struct LobeNodes {

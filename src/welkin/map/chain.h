@@ -1,13 +1,32 @@
 #pragma once
 
-#include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "welkin/map/chain_notes.h"
-#include "welkin/map/map_file.h"
+#include "welkin/map/map.h"
 
 /// Chains: the levels of a texture, each half as large as the one before (docs/chains.md).
 namespace welkin {
+
+/// What the levels of a chain hold, in words: stored with it, and shown to whoever reads it. A file may say
+/// anything here; nothing is computed from it.
+struct ChainNotes {
+  std::string lobe;  ///< that the levels are filtered with, as lobe::AnyLobe::make takes it, the roughness
+                     ///< left out: `ggx`. Empty for plain maps
+  std::vector<double> roughness;  ///< of each level; empty where the lobe has none
+  std::string curve;              ///< how roughness goes with the level: `linear`, `filament`…
+  std::string normalisation;      ///< `radiance`: a constant map stays what it is
+  std::string software;           ///< that made the chain
+
+  bool empty() const;
+  /// None where the file doesn't tell.
+  std::optional<double> roughness_of(int level) const;
+  /// The notes on one of the levels, alone in its file.
+  ChainNotes of_level(int level) const;
+
+  friend bool operator==(const ChainNotes&, const ChainNotes&) = default;
+};
 
 struct Chain {
   /// Level 0, the finest, first. Level k's charts have chain_size(level 0's, k); the parameterization
@@ -21,20 +40,5 @@ ChartSize chain_size(ChartSize finest, int level);
 
 /// How many levels charts of this size have, down to 1×1.
 int most_levels(ChartSize finest);
-
-/// Throws Error when a chain of so many levels has no place in such a file, naming the path and the cause: a
-/// format without levels, more of them than the size has, a layout in several files or with a safety border,
-/// a picture whose levels aren't pictures of halved charts. Always passes for one level.
-void check_chain(const std::filesystem::path& path, const MapShape& shape, ChartSize finest, int levels,
-                 const WriteMapOptions& options = {});
-
-/// Writes the levels into one file, with the notes; one level alone as write_map does, in any format. Throws
-/// as check_chain and write_map do.
-io::WriteReport write_chain(const std::filesystem::path& path, const Chain& chain, const Layout& layout,
-                            const WriteMapOptions& options = {});
-
-/// All levels of a file; one of a file without levels. Changes the level that the reader is set to.
-Chain read_chain(MapReader& reader);
-Chain read_chain(const std::filesystem::path& path, const ReadMapOptions& options = {});
 
 }  // namespace welkin

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "welkin/base/error.h"
 #include "welkin/map/borders.h"
-#include "welkin/map/resample.h"
 
 /// What the tests of maps share: maps of every parameterization, functions to fill them with, and ways to
 /// compare.
@@ -127,12 +127,6 @@ inline Function lines(int meridians) {
     const auto line = [](double t) { return std::fabs(t - std::round(t)) < 0.06; };
     return line(turns) || line(height) ? 1.0 : 0.0;
   };
-}
-
-inline ResampleOptions with(Filter filter) {
-  ResampleOptions options;
-  options.filter = filter;
-  return options;
 }
 
 /// The largest difference of a channel over all texels.

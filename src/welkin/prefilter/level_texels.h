@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "welkin/map/fetch.h"
+#include "welkin/filter/fetch.h"
 #include "welkin/prefilter/bright_points.h"
 #include "welkin/prefilter/tables.h"
 

@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "welkin/lobe/panels.h"
+#include "welkin/map/texel_points.h"
+#include "welkin/math/gauss_legendre.h"
 #include "welkin/prefilter/fft.h"
 #include "welkin/prefilter/kernels.h"
 #include "welkin/prefilter/lagrange.h"
 #include "welkin/prefilter/scatter.h"
-#include "welkin/prefilter/texel_points.h"
 
 namespace welkin::prefilter {
 namespace {
@@ -83,7 +84,7 @@ Moments::Moments(int w, int h, int n)
 }
 
 RowSpread::RowSpread(int columns, int picture_rows, int rows) {
-  const lobe::Rule rule = lobe::gauss_legendre(4);
+  const QuadratureRule rule = gauss_legendre(4);
   std::vector<std::vector<Tap>> lists(static_cast<std::size_t>(rows));
   const auto add = [&](int to, int from, double weight) {
     // Past a pole the grid goes on down the opposite meridian; equally, that meridian's picture comes over
@@ -112,8 +113,8 @@ RowSpread::RowSpread(int columns, int picture_rows, int rows) {
     for (double from = begin; from < end - 1e-12;) {
       const double node = std::floor(from - 0.5 + 1e-12) + 0.5;
       const double to = std::min(end, node + 1);
-      for (std::size_t k = 0; k < rule.places.size(); ++k) {
-        const double y = (from + to) / 2 + rule.places[k] * (to - from) / 2;
+      for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+        const double y = (from + to) / 2 + rule.nodes[k] * (to - from) / 2;
         double w[6];
         lagrange6(y - node, w);
         const double measure =
@@ -149,7 +150,7 @@ ColumnSpread::ColumnSpread(int count) : columns(count) {
     if (x < 1) return (1 - x) * (1 + x) * (2 - x) / 2;
     return x < 2 ? (1 - x) * (2 - x) * (3 - x) / 6 : 0.0;
   };
-  const lobe::Rule rule = lobe::gauss_legendre(3);
+  const QuadratureRule rule = gauss_legendre(3);
   reach = (3 * columns + 1) / 2;
   for (int i = -reach; i < columns + reach; ++i) {
     const double middle = (i + 0.5) / columns - 0.5, half = 0.5 / columns;
@@ -157,8 +158,8 @@ ColumnSpread::ColumnSpread(int count) : columns(count) {
     // itself.
     double sum = 0;
     for (double side : {-0.5, 0.5}) {
-      for (std::size_t k = 0; k < rule.places.size(); ++k) {
-        sum += rule.weights[k] / 4 * kernel(middle + side * half + rule.places[k] * half / 2);
+      for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+        sum += rule.weights[k] / 4 * kernel(middle + side * half + rule.nodes[k] * half / 2);
       }
     }
     along.push_back(static_cast<float>(sum));

@@ -9,6 +9,7 @@
 #include "welkin/lobe/angle.h"
 #include "welkin/lobe/panels.h"
 #include "welkin/lobe/zonal.h"
+#include "welkin/math/gauss_legendre.h"
 #include "welkin/math/scalar.h"
 
 namespace welkin::prefilter {
@@ -17,11 +18,11 @@ namespace {
 /// Places and weights of Gauss's rule of 16 points in each of `panels` parts of 0 … end.
 struct Nodes {
   Nodes(double end, int panels) {
-    static const lobe::Rule rule = lobe::gauss_legendre(16);
+    static const QuadratureRule rule = gauss_legendre(16);
     const double half = end / (2 * panels);
     for (int panel = 0; panel < panels; ++panel) {
-      for (std::size_t i = 0; i < rule.places.size(); ++i) {
-        place.push_back((2 * panel + 1 + rule.places[i]) * half);
+      for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+        place.push_back((2 * panel + 1 + rule.nodes[i]) * half);
         weight.push_back(rule.weights[i] * half);
       }
     }

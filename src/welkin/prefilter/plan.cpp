@@ -4,13 +4,13 @@
 #include <optional>
 
 #include "welkin/base/number_text.h"
+#include "welkin/filter/resample.h"
 #include "welkin/lobe/energy.h"
 #include "welkin/map/adjust.h"
-#include "welkin/map/resample.h"
+#include "welkin/map/texel_points.h"
 #include "welkin/prefilter/source_faults.h"
 #include "welkin/prefilter/spline_grid.h"
 #include "welkin/prefilter/tables.h"
-#include "welkin/prefilter/texel_points.h"
 #include "welkin/prefilter/widen.h"
 
 namespace welkin {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "welkin/base/parallel.h"
+#include "welkin/filter/filter.h"
 #include "welkin/lobe/lobe.h"
-#include "welkin/map/filter.h"
 #include "welkin/map/map.h"
 
 /// Pre-filtering: a map averaged with a lobe about every direction, so that lighting a material is one

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "welkin/map/convention.h"
 #include "welkin/prefilter/prefilter_cases.h"
+#include "welkin/sphere/convention.h"
 
 /// What any convolution keeps: constants, energy, sign, sums, rotations.
 namespace welkin {
@@ -156,7 +156,7 @@ void change(Map& map, const Body& body) {
   fill_borders(map);
 }
 
-/// Signs pass through: rounding. A mirror's kernel is held to the range of positive light (map/fetch.h).
+/// Signs pass through: rounding. A mirror's kernel is held to the range of positive light (filter/fetch.h).
 TEST(PrefilterLaws, NegativeRadianceIsConvolvedToo) {
   for (const Shape& shape : {Shape{"latlong", 64, 32}, {"cube", 16, 16}}) {
     Map source = landscape(shape.parameterization, shape.width, shape.height);

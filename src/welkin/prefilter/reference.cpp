@@ -9,10 +9,6 @@
 
 namespace welkin {
 
-using prefilter::ChartCell;
-using prefilter::TexelKind;
-using prefilter::TexelPoint;
-
 namespace {
 
 /// A piece is small enough when its size squared is this part of width² + distance².
@@ -78,13 +74,13 @@ PrefilterReference::PrefilterReference(const Map& source)
       orientation_(source.orientation),
       size_{source.width(), source.height()},
       channels_(static_cast<std::size_t>(source.channels())),
-      limits_(prefilter::texel_limits(parameterization_, size_)),
-      mean_texel_(prefilter::mean_texel(parameterization_, size_)),
+      limits_(texel_limits(parameterization_, size_)),
+      mean_texel_(mean_texel(parameterization_, size_)),
       integral_(channels_) {
   std::size_t texel = 0;
   for (int chart = 0; chart < source.charts(); ++chart) {
     for (int y = 0; y < size_.height; ++y) {
-      const std::vector<TexelKind> kinds = prefilter::texel_kinds(parameterization_, size_, chart, y);
+      const std::vector<TexelKind> kinds = texel_kinds(parameterization_, size_, chart, y);
       const float* radiance = source.level.chart(chart).row(y);
       for (const TexelKind kind : kinds) {
         if (kind != TexelKind::outside) add_texel(texel, radiance, kind == TexelKind::plain);
@@ -98,22 +94,22 @@ PrefilterReference::PrefilterReference(const Map& source)
 ChartCell PrefilterReference::cell_of(std::size_t texel) const {
   const int x = static_cast<int>(texel % static_cast<std::size_t>(size_.width));
   const int row = static_cast<int>(texel / static_cast<std::size_t>(size_.width));
-  return prefilter::texel_cell(size_, row / size_.height, x, row % size_.height);
+  return texel_cell(size_, row / size_.height, x, row % size_.height);
 }
 
 void PrefilterReference::add_texel(std::size_t texel, const float* radiance, bool plain) {
   const ChartCell cell = cell_of(texel);
   std::vector<TexelPoint> points;
-  prefilter::append_gauss_points(parameterization_, cell, points);
+  append_gauss_points(parameterization_, cell, points);
   const Vec3d a = points[3].direction - points[0].direction, b = points[2].direction - points[1].direction;
   double size = 1.5 * std::max(dot(a, a), dot(b, b));
   if (!plain) {
     // As close together as the points of an average texel.
-    prefilter::CellLimits limits = limits_;
+    CellLimits limits = limits_;
     limits.side = mean_texel_;
     size = mean_texel_ * mean_texel_;
     points.clear();
-    prefilter::append_points(parameterization_, cell, limits, points);
+    append_points(parameterization_, cell, limits, points);
   }
   double total = 0;
   for (const TexelPoint& point : points) total += point.solid_angle;
@@ -152,11 +148,11 @@ double PrefilterReference::near_texel(const lobe::AnyLobe& lobe, const Vec3d& di
   }
   points.clear();
   if (plain) {
-    prefilter::append_gauss_points(parameterization_, cell, points);
+    append_gauss_points(parameterization_, cell, points);
   } else {
-    prefilter::CellLimits limits = limits_;
+    CellLimits limits = limits_;
     limits.rim_depth = 0;
-    prefilter::append_points(parameterization_, cell, limits, points);
+    append_points(parameterization_, cell, limits, points);
   }
   for (const TexelPoint& point : points) {
     const Vec3d d = point.direction - direction;

@@ -6,7 +6,7 @@
 #include "welkin/base/parallel.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/map/map.h"
-#include "welkin/prefilter/texel_points.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin {
 
@@ -42,18 +42,17 @@ class PrefilterReference {
   };
   /// Others, one by one.
   struct Irregular {
-    std::vector<prefilter::TexelPoint> points;
+    std::vector<TexelPoint> points;
     double size;
     std::vector<float> radiance;
     std::size_t texel;
   };
 
   void add_texel(std::size_t texel, const float* radiance, bool plain);
-  prefilter::ChartCell cell_of(std::size_t texel) const;
+  ChartCell cell_of(std::size_t texel) const;
   /// `points` is scratch.
   double near_texel(const lobe::AnyLobe& lobe, const Vec3d& direction, const Scale& scale,
-                    const prefilter::ChartCell& cell, bool plain,
-                    std::vector<prefilter::TexelPoint>& points) const;
+                    const ChartCell& cell, bool plain, std::vector<TexelPoint>& points) const;
   /// Add to sum[channel] the texels' radiance times the integral of the lobe over them.
   void sum_plain(const Weights& weights, const Scale& scale, const Vec3d& direction, double* sum) const;
   void sum_irregular(const Weights& weights, const Scale& scale, const Vec3d& direction, double* sum) const;
@@ -62,7 +61,7 @@ class PrefilterReference {
   Matrix3 orientation_;
   ChartSize size_;
   std::size_t channels_;
-  prefilter::CellLimits limits_;
+  CellLimits limits_;
   double mean_texel_;  ///< a side, radians
   Plain plain_;
   std::vector<Irregular> irregular_;

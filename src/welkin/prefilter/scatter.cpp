@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "welkin/map/texel_points.h"
 #include "welkin/prefilter/lagrange.h"
-#include "welkin/prefilter/texel_points.h"
 
 namespace welkin::prefilter {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "welkin/map/fetch.h"
+#include "welkin/filter/fetch.h"
 #include "welkin/math/vec.h"
 
 namespace welkin::prefilter {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "welkin/map/row_bands.h"
-#include "welkin/prefilter/texel_points.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin::prefilter {
 namespace {

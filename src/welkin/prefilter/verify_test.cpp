@@ -10,10 +10,10 @@
 #include "welkin/base/error.h"
 #include "welkin/lobe/lobe_cases.h"
 #include "welkin/map/borders.h"
-#include "welkin/map/render_synth.h"
 #include "welkin/prefilter/reference.h"
 #include "welkin/prefilter/verify_energy.h"
 #include "welkin/prefilter/verify_texels.h"
+#include "welkin/synth/render_synth.h"
 
 namespace welkin {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "welkin/map/luminance.h"
+#include "welkin/measure/luminance.h"
 
 namespace welkin::prefilter {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cassert>
 
-#include "welkin/synth/angles.h"
+#include "welkin/math/angles.h"
 
 namespace welkin::synth {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "welkin/synth/angles.h"
+#include "welkin/math/angles.h"
 
 namespace welkin::synth {
 namespace {

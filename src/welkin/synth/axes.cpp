@@ -1,9 +1,9 @@
 #include <string>
 
+#include "welkin/image/font.h"
+#include "welkin/math/angles.h"
 #include "welkin/sphere/cube.h"
-#include "welkin/synth/angles.h"
 #include "welkin/synth/color.h"
-#include "welkin/synth/font.h"
 #include "welkin/synth/maps.h"
 
 /// The labelled test card. Everything is painted in layers, later over earlier, each a test of distance.

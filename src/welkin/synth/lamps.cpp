@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "welkin/synth/angles.h"
+#include "welkin/math/angles.h"
 #include "welkin/synth/color.h"
 #include "welkin/synth/maps.h"
 

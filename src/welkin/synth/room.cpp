@@ -1,4 +1,4 @@
-#include "welkin/synth/angles.h"
+#include "welkin/math/angles.h"
 #include "welkin/synth/area_light.h"
 #include "welkin/synth/color.h"
 #include "welkin/synth/maps.h"

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "welkin/synth/angles.h"
+#include "welkin/math/angles.h"
 #include "welkin/synth/color.h"
 #include "welkin/synth/maps.h"
 

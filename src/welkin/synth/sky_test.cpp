@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "welkin/synth/angles.h"
+#include "welkin/math/angles.h"
 #include "welkin/synth/synth.h"
 
 namespace welkin::synth {

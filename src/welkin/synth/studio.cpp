@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "welkin/synth/angles.h"
+#include "welkin/math/angles.h"
 #include "welkin/synth/area_light.h"
 #include "welkin/synth/color.h"
 #include "welkin/synth/maps.h"

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "welkin/base/error.h"
-#include "welkin/synth/angles.h"
+#include "welkin/math/angles.h"
 
 namespace welkin::synth {
 namespace {

@@ -1,0 +1,190 @@
+#include "welkin/filter/fetch.h"
+
+#include <array>
+
+#include "welkin/filter/area.h"
+#include "welkin/map/map_cases.h"
+
+namespace welkin {
+namespace {
+
+using namespace cases;
+
+constexpr std::size_t kCount = 512;
+
+struct Places {
+  alignas(64) std::array<float, kCount> chart, u, v;
+};
+
+/// All over the charts and up to half a texel outside.
+Places random_places(const Map& map) {
+  std::mt19937 random(3);
+  const float outside = 0.5f / static_cast<float>(map.width());
+  std::uniform_real_distribution<float> along(-outside, 1 + outside);
+  Places places;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    places.chart[i] = static_cast<float>(static_cast<int>(i) % map.charts());
+    places.u[i] = along(random);
+    places.v[i] = along(random);
+  }
+  return places;
+}
+
+std::vector<float> fetched(Fetch fetch, const Map& map, const Places& places) {
+  std::vector<float> out(kCount * static_cast<std::size_t>(map.channels()) + 8);
+  fetch(view_of(map.level), places.chart.data(), places.u.data(), places.v.data(), out.data(), kCount);
+  out.resize(out.size() - 8);
+  return out;
+}
+
+std::vector<Fetch> all_kernels(int channels, FetchKernels (*table)(int)) {
+  const FetchKernels k = table(channels);
+  return {k.nearest,        k.bilinear,      k.bicubic.plain,  k.bicubic.held,
+          k.lanczos3.plain, k.lanczos3.held, k.lanczos4.plain, k.lanczos4.held};
+}
+
+/// Kernels that interpolate give a texel's own value at its centre, and those with weights of sum 1 a plane
+/// where the source is one: bilinear and Keys' cubic exactly.
+TEST(FetchTest, CentresGiveTexelsAndPlanesStayPlanes) {
+  Map map(sphere::AnyParameterization::make("latlong"), 32, 16, 3);
+  for (int y = -kBorder; y < 16 + kBorder; ++y) {
+    for (int x = -kBorder; x < 32 + kBorder; ++x) {
+      float* texel = map.level.chart(0).at(x, y);
+      for (int c = 0; c < 3; ++c)
+        texel[c] = static_cast<float>(c + 1) *
+                   (0.5f + 0.25f * static_cast<float>(x) - 0.125f * static_cast<float>(y));
+    }
+  }
+  Places centres = random_places(map), anywhere = centres;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    centres.u[i] = (std::floor(clamp(centres.u[i], 0.0f, 0.999f) * 32) + 0.5f) / 32;
+    centres.v[i] = (std::floor(clamp(centres.v[i], 0.0f, 0.999f) * 16) + 0.5f) / 16;
+  }
+  const auto expect_plane = [&](Fetch fetch, const Places& places, double tolerance) {
+    const std::vector<float> values = fetched(fetch, map, places);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const double x = 32.0 * static_cast<double>(places.u[i]) - 0.5,
+                   y = 16.0 * static_cast<double>(places.v[i]) - 0.5;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double expected = (static_cast<double>(c) + 1) * (0.5 + 0.25 * x - 0.125 * y);
+        ASSERT_NEAR(values[3 * i + c], expected, tolerance) << i;
+      }
+    }
+  };
+  for (const Fetch fetch : all_kernels(3, fetch_kernels)) expect_plane(fetch, centres, 1e-4);
+  expect_plane(fetch_kernels(3).bilinear, anywhere, 2e-5);
+  expect_plane(fetch_kernels(3).bicubic.plain, anywhere, 4e-5);
+}
+
+/// The bounds that fetch.h states, by brute force over the inner 4×4 texels.
+TEST(FetchTest, HeldValuesKeepToTheirBounds) {
+  Map map = rendered("cube", 24, [](const Vec3d&) { return 0.0; });
+  std::mt19937 random(9);
+  for_each_place(map, [&](int chart, int x, int y) {
+    *map.level.chart(chart).at(x, y) =
+        random() % 5 == 0 ? 1000.0f : 0.01f * static_cast<float>(random() % 100);
+  });
+  fill_borders(map);
+  const Places places = random_places(map);
+  bool any_changed = false;
+  for (const RingingFetch& kernel :
+       {fetch_kernels(1).bicubic, fetch_kernels(1).lanczos3, fetch_kernels(1).lanczos4}) {
+    const std::vector<float> plain = fetched(kernel.plain, map, places),
+                             held = fetched(kernel.held, map, places);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const auto first = [&](float at) { return static_cast<int>(std::floor(at * 24.0f - 0.5f)) - 1; };
+      float lowest = HUGE_VALF, highest = -HUGE_VALF;
+      for (int y = first(places.v[i]); y < first(places.v[i]) + 4; ++y) {
+        for (int x = first(places.u[i]); x < first(places.u[i]) + 4; ++x) {
+          lowest = std::min(lowest, *map.level.chart(static_cast<int>(places.chart[i])).at(x, y));
+          highest = std::max(highest, *map.level.chart(static_cast<int>(places.chart[i])).at(x, y));
+        }
+      }
+      const float margin = 0.5f * (highest - lowest);
+      const float floor = std::max(lowest - margin, std::min(lowest, 0.5f * lowest));
+      const float expected = clamp(plain[i], floor, highest + margin);
+      ASSERT_NEAR(held[i], expected, 1e-4f) << places.u[i] << "," << places.v[i];
+      any_changed = any_changed || held[i] != plain[i];
+    }
+  }
+  EXPECT_TRUE(any_changed);
+}
+
+TEST(FetchTest, BadPlacesReadTexelsOfTheMapAndNoOtherMemory) {
+  const Map map = rendered(
+      "cube", 4, [](const Vec3d&) { return 2.0; }, 4);
+  Places places = random_places(map);
+  const float bad[] = {NAN, INFINITY, -INFINITY, 1e30f, -1e30f, 7, -7};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    places.u[i] = bad[i % 7];
+    places.v[i] = bad[i / 7 % 7];
+    places.chart[i] = bad[i / 49 % 7];
+  }
+  for (const Fetch fetch : all_kernels(4, fetch_kernels)) {
+    const std::vector<float> values = fetched(fetch, map, places);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      ASSERT_NEAR(values[i], 2.0 * static_cast<double>(i % 4 + 1), 1e-4);
+    }
+  }
+}
+
+#ifdef WELKIN_HAS_AVX2
+/// One formula, two instruction sets: they differ by rounding only.
+TEST(FetchTest, InstructionSetsAgree) {
+  for (const int channels : {1, 2, 3, 4, 5, 7}) {
+    const Map map = rendered("cube", 24, waves(20, 20), channels);
+    const Places places = random_places(map);
+    const auto baseline = all_kernels(channels, fetch_kernels_baseline);
+    const auto avx2 = all_kernels(channels, fetch_kernels_avx2);
+    for (std::size_t k = 0; k < baseline.size(); ++k) {
+      const std::vector<float> a = fetched(baseline[k], map, places), b = fetched(avx2[k], map, places);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        ASSERT_NEAR(a[i], b[i], 1e-5 * channels) << channels << " kernel " << k;
+    }
+    std::vector<float> means[2];
+    std::vector<Parallelogram> areas;
+    for (int i = 0; i < 60; ++i) {
+      const float angle = 0.1f * static_cast<float>(i), size = 1.0f / static_cast<float>(2 + i % 5);
+      areas.push_back({i % 6,
+                       12.3f + 0.01f * static_cast<float>(i),
+                       11.6f,
+                       {size * std::cos(angle), size * std::sin(angle)},
+                       {-0.7f * size * std::sin(angle), 0.7f * size * std::cos(angle)},
+                       {0.1f, -0.2f}});
+    }
+    for (int k = 0; k < 2; ++k) {
+      means[k].resize(areas.size() * static_cast<std::size_t>(channels) + 8);
+      const AreaMean mean = k == 0 ? area_mean_baseline(channels) : area_mean_avx2(channels);
+      mean(view_of(map.level), areas.data(), means[k].data(), areas.size());
+    }
+    for (std::size_t i = 0; i + 8 < means[0].size(); ++i)
+      ASSERT_NEAR(means[0][i], means[1][i], 1e-5 * channels);
+  }
+}
+#endif
+
+/// An upright box over whole texels is their mean, blurred by the tent: exact for a plane.
+TEST(AreaMeanTest, TheMeanOfAPlaneIsItsValueAtTheMiddleAndWeightsPullIt) {
+  Map map(sphere::AnyParameterization::make("latlong"), 64, 32, 1);
+  for (int y = -kBorder; y < 32 + kBorder; ++y) {
+    for (int x = -kBorder; x < 64 + kBorder; ++x) {
+      *map.level.chart(0).at(x, y) =
+          0.25f * (static_cast<float>(x) + 0.5f) + 0.5f * (static_cast<float>(y) + 0.5f);
+    }
+  }
+  const Parallelogram boxes[] = {
+      {0, 20.5f, 10.25f, {0.25f, 0}, {0, 0.125f}, {0, 0}},
+      {0, 30.2f, 16.7f, {0.1f, 0.05f}, {-0.05f, 0.1f}, {0, 0}},
+      // Weight 1 + a over a box 4 texels wide: the middle moves by 4/12 to the right.
+      {0, 20.5f, 10.25f, {0.25f, 0}, {0, 0.125f}, {1, 0}},
+  };
+  float means[16];
+  area_mean(1)(view_of(map.level), boxes, means, 3);
+  EXPECT_NEAR(means[0], 0.25 * 20.5 + 0.5 * 10.25, 1e-5);
+  EXPECT_NEAR(means[1], 0.25 * 30.2 + 0.5 * 16.7, 0.01);
+  // The tents at both ends widen the box's second moment.
+  EXPECT_NEAR(means[2] - means[0], 0.25 * 4 * (1.0 / 12 + 1.0 / 6 / 16), 0.01);
+}
+
+}  // namespace
+}  // namespace welkin

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "welkin/base/parallel.h"
+#include "welkin/filter/filter.h"
+#include "welkin/map/map.h"
+
+namespace welkin {
+
+struct ResampleOptions {
+  Filter filter = Filter::automatic;
+  /// Turns the world: what was seen along d is seen along rotation·d afterwards.
+  Matrix3 rotation;
+  /// Bicubic and Lanczos weights are negative in places. Unless this is set, a result is held near the range
+  /// of the texels around it (fetch.h), so light never becomes negative beside a bright spot.
+  bool allow_ringing = false;
+  /// For directions that the source doesn't show and texels that aren't a place of the target: one value per
+  /// channel; 0 where there are fewer.
+  std::vector<float> fill;
+  Monitor monitor;
+};
+
+/// Fills the target's charts (not its borders) from the source, whose borders must be filled. Both have the
+/// same number of channels. Reads the source only; besides it needs at most a pyramid of a third of the
+/// source, and only to minify more than sixteenfold. Positions are exact to 1e-6 of a chart's side; the error
+/// of `automatic` against exact area sampling is measured in docs/benchmarks.md. Throws Cancelled.
+///
+/// A target of the source's own parameterization, size and orientation gets the texels as they are.
+void resample(const Map& source, Map& target, const ResampleOptions& options = {});
+
+/// Size of a chart of `parameterization` that has as many texels per steradian as the map has on average,
+/// rounded to an even width.
+ChartSize default_chart_size(const Map& map, const sphere::AnyParameterization& parameterization);
+
+}  // namespace welkin

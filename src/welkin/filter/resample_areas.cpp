@@ -1,0 +1,301 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "welkin/filter/area.h"
+#include "welkin/filter/footprint.h"
+#include "welkin/filter/resample_job.h"
+#include "welkin/map/pyramid.h"
+
+namespace welkin {
+namespace {
+
+/// Where a grid of points of the target lies in the source, and what each weighs: 0 where it is no place of
+/// the target, or the source doesn't show it.
+struct Grid {
+  std::vector<float> chart, u, v, weight;
+};
+
+class AreaResampler {
+ public:
+  explicit AreaResampler(const ResampleJob& job) : job_(job), area_mean_(area_mean(job.source.channels())) {}
+
+  void run() {
+    // Plan: what each tile covers decides how many samples it needs and of which level.
+    Map& target = job_.target;
+    const int bands = (target.height() + kTileSide - 1) / kTileSide;
+    std::vector<std::vector<FootprintTile>> tiles(static_cast<std::size_t>(target.charts() * bands));
+    parallel_for(target.charts() * bands,
+                 [&](int i) {
+                   const int y = i % bands * kTileSide;
+                   plan_tiles(job_.source, target, job_.to_source, i / bands, y,
+                              std::min(kTileSide, target.height() - y), tiles[static_cast<std::size_t>(i)]);
+                 },
+                 {nullptr, job_.options.monitor.cancelled});
+    int coarsest = 0;
+    for (const auto& band : tiles) {
+      for (const auto& tile : band) coarsest = std::max(coarsest, tile.level);
+    }
+    const std::vector<Level> pyramid = make_pyramid(job_.source, coarsest);
+    levels_ = {view_of(job_.source.level)};
+    for (const Level& level : pyramid) levels_.push_back(view_of(level));
+
+    parallel_for(
+        static_cast<int>(tiles.size()),
+        [&](int i) {
+          Batch batch(job_);
+          for (const FootprintTile& tile : tiles[static_cast<std::size_t>(i)]) fill(tile, batch);
+        },
+        job_.options.monitor);
+  }
+
+ private:
+  void fill(const FootprintTile& tile, Batch& batch) const {
+    const int per_texel = tile.samples_right * tile.samples_down;
+    if (per_texel == 1) {
+      const int rows = std::max(1, kBatch / tile.width);
+      for (int y = 0; y < tile.height; y += rows) {
+        resample_rectangle(job_, job_.fetch_of(Filter::automatic), tile.chart, tile.x, tile.y + y, tile.width,
+                           std::min(rows, tile.height - y), batch);
+      }
+      return;
+    }
+    // The texels of a small target are too large to be flat in the source, though they may look so at their
+    // corners.
+    constexpr int kSmall = 16;
+    if (tile.whole && job_.target.width() > kSmall && job_.target.height() > kSmall)
+      return fill_by_areas(tile, batch);
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width;) x += average(tile, x, y, tile.width, per_texel, batch);
+    }
+  }
+
+  void locate_grid(const FootprintTile& tile, int columns, int rows, float offset, Batch& batch,
+                   Grid& grid) const {
+    const std::size_t points = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    for (auto* list : {&grid.chart, &grid.u, &grid.v, &grid.weight}) list->resize(points);
+    const float across = 1.0f / static_cast<float>(job_.target.width());
+    const float down = 1.0f / static_cast<float>(job_.target.height());
+    for (std::size_t from = 0; from < points; from += kBatch) {
+      const std::size_t count = std::min<std::size_t>(kBatch, points - from);
+      for (std::size_t i = 0; i < count; ++i) {
+        const int k = static_cast<int>(from + i);
+        batch.u[i] = (static_cast<float>(tile.x + k % columns) + offset) * across;
+        batch.v[i] = (static_cast<float>(tile.y + k / columns) + offset) * down;
+      }
+      batch.locate(tile.chart, count);
+      batch.weigh(tile.chart, count);
+      if (!job_.source_is_whole) {
+        const float* covered = batch.covered(count);
+        for (std::size_t i = 0; i < count; ++i) batch.weight[i] *= covered[i];
+      }
+      std::copy_n(batch.chart, count, grid.chart.data() + from);
+      std::copy_n(batch.source_u, count, grid.u.data() + from);
+      std::copy_n(batch.source_v, count, grid.v.data() + from);
+      std::copy_n(batch.weight, count, grid.weight.data() + from);
+    }
+  }
+
+  /// Texels whose area is a parallelogram in one source chart are averaged texel by texel; the few others
+  /// (poles, chart edges, folds, rims) from samples that each find their own place.
+  void fill_by_areas(const FootprintTile& tile, Batch& batch) const {
+    Grid corners, centres;
+    locate_grid(tile, tile.width + 1, tile.height + 1, 0.0f, batch, corners);
+    locate_grid(tile, tile.width, tile.height, 0.5f, batch, centres);
+    const LevelView& level = levels_[std::min(static_cast<std::size_t>(tile.level), levels_.size() - 1)];
+    const int per_texel = tile.samples_right * tile.samples_down;
+    const ImageView<float> out = job_.target.level.chart(tile.chart);
+    std::vector<float> mean(job_.channels() + 8);
+    Parallelogram area;
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        const std::size_t corner = static_cast<std::size_t>(y * (tile.width + 1) + x);
+        const std::size_t centre = static_cast<std::size_t>(y * tile.width + x);
+        if (parallelogram(level, corners, corner, static_cast<std::size_t>(tile.width + 1), centres, centre,
+                          area)) {
+          area_mean_(level, &area, mean.data(), 1);
+          std::copy_n(mean.data(), job_.channels(), out.at(tile.x + x, tile.y + y));
+        } else {
+          average(tile, x, y, 1, per_texel, batch);
+        }
+      }
+    }
+  }
+
+  /// The parallelogram through four corners, unless one of them is no place of either map, or they lie in
+  /// different charts, or it bends or twists by more than a fraction of a texel, or the target's density is
+  /// not linear over it, or it leaves the chart's border.
+  static bool parallelogram(const LevelView& level, const Grid& corners, std::size_t corner, std::size_t row,
+                            const Grid& centres, std::size_t centre, Parallelogram& out) {
+    constexpr float kMostBend = 0.25f, kMostUnevenness = 0.005f;
+    const std::size_t at[4] = {corner, corner + 1, corner + row, corner + row + 1};
+    const float chart = centres.chart[centre];
+    float x[4], y[4];
+    for (int i = 0; i < 4; ++i) {
+      if (corners.chart[at[i]] != chart || !(corners.weight[at[i]] > 0)) return false;
+      x[i] = corners.u[at[i]] * static_cast<float>(level.width);
+      y[i] = corners.v[at[i]] * static_cast<float>(level.height);
+    }
+    out.chart = static_cast<int>(chart);
+    out.x = centres.u[centre] * static_cast<float>(level.width);
+    out.y = centres.v[centre] * static_cast<float>(level.height);
+    const auto middle = [](const float* p) { return 0.25f * (p[0] + p[1] + p[2] + p[3]); };
+    const auto twist = [](const float* p) { return 0.25f * (p[0] + p[3] - p[1] - p[2]); };
+    for (const float bend : {middle(x) - out.x, middle(y) - out.y, twist(x), twist(y)}) {
+      if (!(std::fabs(bend) < kMostBend)) return false;
+    }
+    const float right[2] = {0.5f * (x[1] + x[3] - x[0] - x[2]), 0.5f * (y[1] + y[3] - y[0] - y[2])};
+    const float down[2] = {0.5f * (x[2] + x[3] - x[0] - x[1]), 0.5f * (y[2] + y[3] - y[0] - y[1])};
+    const float extent_x = 0.5f * (std::fabs(right[0]) + std::fabs(down[0])) + 2;
+    const float extent_y = 0.5f * (std::fabs(right[1]) + std::fabs(down[1])) + 2;
+    const auto inside = [](float middle, float extent, int size) {
+      return middle - extent >= -kBorder && middle + extent <= static_cast<float>(size + kBorder) &&
+             extent < 0.25f * static_cast<float>(size) + 2;
+    };
+    if (!inside(out.x, extent_x, level.width) || !inside(out.y, extent_y, level.height)) return false;
+    const float determinant = right[0] * down[1] - right[1] * down[0];
+    if (!(std::fabs(determinant) > 0.5f)) return false;
+    out.across[0] = down[1] / determinant;
+    out.across[1] = -down[0] / determinant;
+    out.down[0] = -right[1] / determinant;
+    out.down[1] = right[0] / determinant;
+    const float w[4] = {corners.weight[at[0]], corners.weight[at[1]], corners.weight[at[2]],
+                        corners.weight[at[3]]};
+    if (!(std::fabs(middle(w) - centres.weight[centre]) < kMostUnevenness * centres.weight[centre]))
+      return false;
+    const float scale = 0.5f / centres.weight[centre];
+    out.gradient[0] = (w[1] + w[3] - w[0] - w[2]) * scale;
+    out.gradient[1] = (w[2] + w[3] - w[0] - w[1]) * scale;
+    return std::isfinite(out.gradient[0]) && std::isfinite(out.gradient[1]);
+  }
+
+  /// Means of the next texels of a tile's row, at most `most` and as many as fit into a batch; returns how
+  /// many.
+  int average(const FootprintTile& tile, int x0, int y0, int most, int per_texel, Batch& batch) const {
+    const int texels = std::clamp(kBatch / per_texel, 1, std::min(most, tile.width - x0));
+    // The mean of several samples hides how each is interpolated.
+    const Fetch kernel = per_texel >= 9  ? job_.kernels.bilinear
+                         : per_texel > 4 ? job_.fetch_of(Filter::bicubic)
+                                         : job_.fetch_of(Filter::automatic);
+    const LevelView& level = levels_[std::min(static_cast<std::size_t>(tile.level), levels_.size() - 1)];
+    Sum sum(job_);
+    std::vector<int> beyond;  // texels outside the target's places that show something all the same
+    for (int from = 0; from < per_texel; from += kBatch) {
+      const int each = std::min(per_texel - from, kBatch);
+      const std::size_t count = static_cast<std::size_t>(each) * static_cast<std::size_t>(texels);
+      for (int texel = 0; texel < texels; ++texel) {
+        spread_samples(tile, x0 + texel, y0, from, each, batch, static_cast<std::size_t>(texel * each));
+      }
+      batch.locate(tile.chart, count);
+      batch.weigh(tile.chart, count);
+      const float* values = batch.fetch(kernel, level, count);
+      for (int texel = 0; texel < texels; ++texel) {
+        if (from == 0) sum.clear();
+        sum.add(batch.weight + texel * each,
+                values + static_cast<std::size_t>(texel * each) * job_.channels(), each);
+        if (from + each == per_texel && sum.empty() && job_.target.parameterization.filled_to_edges()) {
+          beyond.push_back(x0 + texel);
+        } else if (from + each == per_texel) {
+          sum.mean(job_.target.level.chart(tile.chart).at(tile.x + x0 + texel, tile.y + y0));
+        }
+      }
+    }
+    for (const int x : beyond) {
+      resample_rectangle(job_, job_.fetch_of(Filter::automatic), tile.chart, tile.x + x, tile.y + y0, 1, 1,
+                         batch);
+    }
+    return texels;
+  }
+
+  /// Places of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that is
+  /// averaged.
+  void spread_samples(const FootprintTile& tile, int x, int y, int from, int count, Batch& batch,
+                      std::size_t to) const {
+    const float fx = (static_cast<float>(x) + 0.5f) / static_cast<float>(tile.width);
+    const float fy = (static_cast<float>(y) + 0.5f) / static_cast<float>(tile.height);
+    const auto mix = [&](const float* corners) {
+      const float top = corners[0] + fx * (corners[1] - corners[0]);
+      const float bottom = corners[2] + fx * (corners[3] - corners[2]);
+      return top + fy * (bottom - top);
+    };
+    const float across = 1.0f / static_cast<float>(job_.target.width()),
+                down = 1.0f / static_cast<float>(job_.target.height());
+    const float step_x = spread(mix(tile.texels_right)) / static_cast<float>(tile.samples_right);
+    const float step_y = spread(mix(tile.texels_down)) / static_cast<float>(tile.samples_down);
+    const float centre_x = static_cast<float>(tile.x + x) + 0.5f,
+                centre_y = static_cast<float>(tile.y + y) + 0.5f;
+    const float middle_x = 0.5f * static_cast<float>(tile.samples_right - 1);
+    const float middle_y = 0.5f * static_cast<float>(tile.samples_down - 1);
+    int column = from % tile.samples_right, row = from / tile.samples_right;
+    for (int i = 0; i < count; ++i) {
+      batch.u[to] = (centre_x + (static_cast<float>(column) - middle_x) * step_x) * across;
+      batch.v[to] = (centre_y + (static_cast<float>(row) - middle_y) * step_y) * down;
+      ++to;
+      if (++column == tile.samples_right) {
+        column = 0;
+        ++row;
+      }
+    }
+  }
+
+  /// A weighted sum of samples: in float over a batch, in double over several.
+  class Sum {
+   public:
+    explicit Sum(const ResampleJob& job) : job_(job), values_(job.channels()) {}
+
+    bool empty() const { return !(total_ > 0); }
+
+    void clear() {
+      std::fill(values_.begin(), values_.end(), 0.0);
+      total_ = 0;
+    }
+
+    void add(const float* weights, const float* values, int count) {
+      const std::size_t n = values_.size();
+      if (n == 3) {
+        float r = 0, g = 0, b = 0, w = 0;
+        for (int i = 0; i < count; ++i, values += 3) {
+          w += weights[i];
+          r += weights[i] * values[0];
+          g += weights[i] * values[1];
+          b += weights[i] * values[2];
+        }
+        values_[0] += static_cast<double>(r);
+        values_[1] += static_cast<double>(g);
+        values_[2] += static_cast<double>(b);
+        total_ += static_cast<double>(w);
+        return;
+      }
+      for (int i = 0; i < count; ++i, values += n) {
+        const double weight = static_cast<double>(weights[i]);
+        total_ += weight;
+        for (std::size_t c = 0; c < n; ++c) values_[c] += weight * static_cast<double>(values[c]);
+      }
+    }
+
+    /// The fill, where nothing had any weight.
+    void mean(float* out) const {
+      for (std::size_t c = 0; c < values_.size(); ++c) {
+        out[c] = total_ > 0 ? static_cast<float>(values_[c] / total_) : job_.fill[c];
+      }
+    }
+
+   private:
+    const ResampleJob& job_;
+    std::vector<double> values_;
+    double total_ = 0;
+  };
+
+  const ResampleJob& job_;
+  const AreaMean area_mean_;
+  std::vector<LevelView> levels_;
+};
+
+}  // namespace
+
+void resample_areas(const ResampleJob& job) {
+  AreaResampler(job).run();
+}
+
+}  // namespace welkin

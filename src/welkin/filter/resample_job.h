@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "welkin/filter/fetch.h"
+#include "welkin/filter/resample.h"
+
+/// What the ways to fill a map share. Internal to resample.
+namespace welkin {
+
+/// Samples that go through the pipeline together: their arrays stay in the first-level cache.
+inline constexpr int kBatch = 256;
+
+struct ResampleJob {
+  ResampleJob(const Map& source, Map& target, const ResampleOptions& options);
+
+  const Map& source;
+  Map& target;
+  const ResampleOptions& options;
+  Matrix3 to_source;  ///< directions of the target's parameterization to the source's
+  bool turned;        ///< to_source is not the identity
+  bool target_is_full;
+  bool source_is_whole;
+  FetchKernels kernels;
+  std::vector<float> fill;  ///< a value for each channel
+
+  std::size_t channels() const { return fill.size(); }
+  Fetch fetch_of(Filter filter) const;
+};
+
+/// directions → rotate → places, for a batch of samples given as (u, v) of a target chart, padded(count) ≤
+/// kBatch.
+class Batch {
+ public:
+  explicit Batch(const ResampleJob& job) : job_(job), pixels_(kBatch * job.channels() + 8) {}
+
+  alignas(64) float u[kBatch], v[kBatch];                               ///< in: places in the target's chart
+  alignas(64) float chart[kBatch], source_u[kBatch], source_v[kBatch];  ///< places in the source
+  alignas(64) float weight[kBatch];  ///< solid angle per (u, v) area of the target
+
+  /// Finds the source's places.
+  void locate(int target_chart, std::size_t count);
+  /// Weighs each sample by the solid angle around it, 0 outside the target's places. Call it after locate.
+  void weigh(int target_chart, std::size_t count);
+  /// Which samples the source shows: 1 or 0. Call it after locate.
+  const float* covered(std::size_t count);
+  /// The source's values at the places, channels() for each sample: the fill where the source shows nothing.
+  const float* fetch(Fetch kernel, const LevelView& level, std::size_t count);
+  /// The same with the fill also where the target has no place, unless it is filled to its edges.
+  const float* fetch_texels(Fetch kernel, const LevelView& level, int target_chart, std::size_t count);
+
+ private:
+  void fill_where_zero(const float* mask, std::size_t count);
+
+  const ResampleJob& job_;
+  alignas(64) float x_[kBatch], y_[kBatch], z_[kBatch], mask_[kBatch];
+  std::vector<float> pixels_;
+};
+
+/// Looks up the centres of a rectangle of at most kBatch target texels.
+void resample_rectangle(const ResampleJob& job, Fetch kernel, int chart, int x, int y, int width, int height,
+                        Batch& batch);
+
+/// The whole target by one look-up per texel.
+void resample_points(const ResampleJob& job, Fetch kernel);
+
+/// The whole target by Filter::automatic.
+void resample_areas(const ResampleJob& job);
+
+}  // namespace welkin

@@ -1,0 +1,173 @@
+#include "welkin/filter/resample_reference.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace welkin {
+namespace {
+
+using Values = std::vector<double>;
+
+/// Weights of the texels first … first+count−1 along one axis.
+struct Weights {
+  int first = 0;
+  int count = 1;
+  std::array<double, 6> of{1.0};
+};
+
+double sinc(double x) {
+  return x == 0 ? 1 : std::sin(kPi * x) / (kPi * x);
+}
+
+/// A kernel's height, t texels from its middle.
+double kernel(Filter filter, double t) {
+  t = std::fabs(t);
+  switch (filter) {
+    case Filter::bicubic:
+      // Keys 1981, eq. 4, a = −½.
+      if (t < 1) return (1.5 * t - 2.5) * t * t + 1;
+      return t < 2 ? ((-0.5 * t + 2.5) * t - 4) * t + 2 : 0;
+    case Filter::lanczos:
+      return t < 3 ? sinc(t) * sinc(t / 3) : 0;
+    case Filter::bilinear:
+    case Filter::automatic:
+      return std::max(0.0, 1 - t);
+    case Filter::nearest:
+      break;
+  }
+  return t <= 0.5 ? 1 : 0;
+}
+
+/// Texels on each side of a place that a kernel reads.
+int reach(Filter filter) {
+  switch (filter) {
+    case Filter::bicubic:
+      return 2;
+    case Filter::lanczos:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+/// `place` 0…1 along an axis of `size` texels.
+Weights weights_at(Filter filter, double place, int size) {
+  if (filter == Filter::nearest) {
+    return {static_cast<int>(clamp(std::floor(place * size), 0.0, size - 1.0)), 1, {1.0}};
+  }
+  const double x = clamp(place * size - 0.5, -0.5, size - 0.5);
+  const int before = static_cast<int>(std::floor(x));
+  Weights weights{before - reach(filter) + 1, 2 * reach(filter), {}};
+  double total = 0;
+  for (int i = 0; i < weights.count; ++i) {
+    weights.of[static_cast<std::size_t>(i)] = kernel(filter, x - (weights.first + i));
+    total += weights.of[static_cast<std::size_t>(i)];
+  }
+  for (double& w : weights.of) w /= total;
+  return weights;
+}
+
+/// The rule of RingingFetch: at most half the range of the inner 4×4 texels beyond that range, and not below
+/// half the lowest.
+double hold(const ImageView<const float>& chart, const Weights& across, const Weights& down, int channel,
+            double value) {
+  const int margin = (across.count - 4) / 2;
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      const double texel =
+          static_cast<double>(chart.at(across.first + margin + i, down.first + margin + j)[channel]);
+      lowest = std::min(lowest, texel);
+      highest = std::max(highest, texel);
+    }
+  }
+  const double beyond = 0.5 * (highest - lowest);
+  const double floor = std::max(lowest - beyond, std::min(lowest, 0.5 * lowest));
+  return clamp(value, floor, highest + beyond);
+}
+
+class Reference {
+ public:
+  Reference(const Map& source, Map& target, const ResampleOptions& options, int samples)
+      : source_(source),
+        target_(target),
+        options_(options),
+        samples_(options.filter == Filter::automatic ? samples : 1),
+        to_source_(source.orientation * transpose(options.rotation) * transpose(target.orientation)),
+        fill_(options.fill.begin(), options.fill.end()) {
+    assert(source.channels() == target.channels() && samples >= 1);
+    fill_.resize(static_cast<std::size_t>(source.channels()));
+  }
+
+  void row(int chart, int y) {
+    Values value(fill_.size()), sum(fill_.size());
+    for (int x = 0; x < target_.width(); ++x) {
+      double total = 0;
+      std::fill(sum.begin(), sum.end(), 0.0);
+      for (int k = 0; k < samples_ * samples_; ++k) {
+        const double u = (x + (k % samples_ + 0.5) / samples_) / target_.width();
+        const double v = (y + (k / samples_ + 0.5) / samples_) / target_.height();
+        const auto& p = target_.parameterization;
+        if (!p.valid(chart, u, v)) continue;
+        const double weight = samples_ == 1 ? 1.0 : p.solid_angle_density(chart, u, v);
+        look_up(to_source_ * p.to_sphere(chart, u, v), value);
+        total += weight;
+        for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
+      }
+      if (!(total > 0) && target_.parameterization.filled_to_edges()) {
+        const double u = (x + 0.5) / target_.width(), v = (y + 0.5) / target_.height();
+        look_up(to_source_ * target_.parameterization.to_sphere(chart, u, v), sum);
+        total = 1;
+      }
+      float* out = target_.level.chart(chart).at(x, y);
+      for (std::size_t c = 0; c < sum.size(); ++c) {
+        out[c] = static_cast<float>(total > 0 ? sum[c] / total : fill_[c]);
+      }
+    }
+  }
+
+ private:
+  void look_up(const Vec3d& d, Values& value) const {
+    const auto& p = source_.parameterization;
+    if (!p.covers(d)) {
+      value = fill_;
+      return;
+    }
+    const auto place = p.from_sphere(d);
+    const ImageView<const float> chart = source_.level.chart(static_cast<int>(place.chart));
+    const Weights across = weights_at(options_.filter, place.u, source_.width());
+    const Weights down = weights_at(options_.filter, place.v, source_.height());
+    const bool rings = options_.filter == Filter::bicubic || options_.filter == Filter::lanczos;
+    for (std::size_t c = 0; c < value.size(); ++c) {
+      const int channel = static_cast<int>(c);
+      value[c] = 0;
+      for (int j = 0; j < down.count; ++j) {
+        for (int i = 0; i < across.count; ++i) {
+          const double weight = across.of[static_cast<std::size_t>(i)] * down.of[static_cast<std::size_t>(j)];
+          value[c] += weight * static_cast<double>(chart.at(across.first + i, down.first + j)[channel]);
+        }
+      }
+      if (rings && !options_.allow_ringing) value[c] = hold(chart, across, down, channel, value[c]);
+    }
+  }
+
+  const Map& source_;
+  Map& target_;
+  const ResampleOptions& options_;
+  const int samples_;
+  const Matrix3 to_source_;
+  Values fill_;
+};
+
+}  // namespace
+
+void resample_reference(const Map& source, Map& target, const ResampleOptions& options, int samples) {
+  Reference reference(source, target, options, samples);
+  parallel_for(
+      target.charts() * target.height(),
+      [&](int i) { reference.row(i / target.height(), i % target.height()); }, options.monitor);
+}
+
+}  // namespace welkin

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "welkin/filter/resample.h"
+
+namespace welkin {
+
+/// What resample() is measured against: the same contract in float64, one place after another.
+///
+/// Nearest, bilinear, bicubic and lanczos are one look-up per texel through AnyParameterization's double
+/// functions, with kernel weights in double, from the source's texels and borders.
+///
+/// `automatic` is the mean over the texel's solid angle of the bilinear interpolation of the source: samples
+/// × samples points on a regular grid, each weighted by the target's density there. No pyramid is read, so it
+/// tends to exact area sampling as `samples` grows; there should be at least one point per source texel.
+/// resample() itself interpolates with Lanczos where it does not minify, and that is not compared here.
+///
+/// Directions that the source does not show count as `fill`, and so does a texel none of whose points is a
+/// place of the target. Fills the target's charts, not its borders. samples ≥ 1; both maps have the same
+/// number of channels. Error: float rounding of the result. Throws Cancelled.
+void resample_reference(const Map& source, Map& target, const ResampleOptions& options, int samples);
+
+}  // namespace welkin

@@ -1,0 +1,162 @@
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "welkin/base/error.h"
+#include "welkin/io/decode_pixels.h"
+#include "welkin/io/hdr/header.h"
+#include "welkin/io/hdr/lines.h"
+#include "welkin/io/hdr/rgbe.h"
+#include "welkin/io/hdr/writer.h"
+#include "welkin/io/xyz.h"
+
+namespace welkin::io {
+namespace {
+
+bool matches(std::span<const std::byte> bytes) {
+  return bytes.size() >= 2 && bytes[0] == std::byte{'#'} && bytes[1] == std::byte{'?'};
+}
+
+/// Scan lines that one task decodes together.
+struct Batch {
+  struct Line {
+    std::size_t at;
+    HdrCoding coding;
+  };
+  int first = 0;
+  std::vector<Line> lines;
+};
+
+class HdrReader : public Reader {
+ public:
+  explicit HdrReader(const Source& source) : source_(source), header_(parse_hdr_header(source)) {
+    const std::size_t held = source.bytes.size() - header_.pixels_at;
+    const std::uint64_t least =
+        static_cast<std::uint64_t>(header_.lines()) * least_hdr_line_bytes(header_.line_length());
+    if (held < least) {
+      throw Error(source.name + ": ends early (byte " + std::to_string(source.bytes.size()) +
+                  "): " + std::to_string(header_.lines()) + " scan lines need at least " +
+                  std::to_string(least) + " bytes");
+    }
+    HdrCoding coding;
+    line_end(0, header_.pixels_at, coding);
+
+    info_.format = "hdr";
+    info_.bytes = source.bytes.size();
+    info_.colour = source.options.colour == Colour::srgb ? Colour::srgb : Colour::linear;
+    info_.attributes = header_.attributes;
+    info_.notes = header_.notes;
+    info_.notes.push_back("RGBE: 8-bit mantissas with a shared exponent");
+    if (header_.xyze) {
+      info_.notes.push_back(
+          "XYZE, converted to linear RGB of sRGB primaries and white; Y=1 is kept as white of 1");
+    }
+    for (int k = 0; k < 3; ++k) divisor_[k] = static_cast<float>(header_.divisor[k]);
+    divided_ = std::any_of(divisor_, divisor_ + 3, [](float d) { return d != 1; });
+    if (divided_) info_.notes.push_back("divided by the EXPOSURE and COLORCORR of its header");
+    info_.parts.push_back({"",
+                           header_.width,
+                           header_.height,
+                           {"R", "G", "B"},
+                           PixelType::float32,
+                           coding == HdrCoding::flat ? "none" : "rle"});
+  }
+
+  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override;
+
+ private:
+  std::size_t line_end(int line, std::size_t at, HdrCoding& coding) const {
+    try {
+      return hdr_line_end(source_.bytes, at, header_.line_length(), coding);
+    } catch (const Error& error) {
+      throw Error(source_.name + ": scan line " + std::to_string(line) + ": " + error.what());
+    }
+  }
+  void decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb,
+                   const PixelDecoder& decoder, std::span<const int> channels, ImageView<float> out) const;
+
+  Source source_;
+  HdrHeader header_;
+  float divisor_[3] = {1, 1, 1};
+  bool divided_ = false;
+};
+
+/// One scan line to where it belongs in `out`. The common one, an upright row of R G B, goes there directly.
+void HdrReader::decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb,
+                            const PixelDecoder& decoder, std::span<const int> channels,
+                            ImageView<float> out) const {
+  const int length = header_.line_length();
+  decode_hdr_line(source_.bytes.data() + stored.at, stored.coding, planes);
+
+  int x = header_.columns ? line : 0;
+  int y = header_.columns ? 0 : line;
+  if (header_.from_right) x = header_.width - 1 - x;
+  if (header_.from_bottom) y = header_.height - 1 - y;
+  std::ptrdiff_t step = header_.columns ? out.row_stride : out.channels;
+  if (header_.columns ? header_.from_bottom : header_.from_right) step = -step;
+  float* const first = out.at(x, y);
+
+  const bool all = channels.size() == 3 && channels[0] == 0 && channels[1] == 1 && channels[2] == 2;
+  const bool plain = !header_.xyze && !divided_ && info_.colour == Colour::linear;
+  if (all && plain && step == 3) {
+    decode_rgbe(planes[0], planes[1], planes[2], planes[3], length, first);
+    return;
+  }
+  decode_rgbe(planes[0], planes[1], planes[2], planes[3], length, rgb);
+  for (int i = 0; i < length && !plain; ++i) {
+    for (int k = 0; k < 3; ++k) rgb[3 * i + k] /= divisor_[k];
+    if (header_.xyze) xyz_to_rgb(rgb + 3 * i);
+  }
+  decoder.decode(rgb, channels, length, first, step);
+}
+
+void HdrReader::read(std::size_t part, std::span<const int> channels, ImageView<float> out) {
+  assert(part == 0 && out.width == header_.width && out.height == header_.height);
+  assert(channels.size() == static_cast<std::size_t>(out.channels));
+  static_cast<void>(part);
+  const PixelDecoder decoder(PixelType::float32, srgb_channels(info_.parts[0].channels, info_.colour));
+
+  // One stage walks over the run codes to find where scan lines start; behind it all threads decode.
+  constexpr int kPixelsOfBatch = 1 << 15;
+  const int length = header_.line_length();
+  const int lines_of_batch = std::max(1, kPixelsOfBatch / length);
+  std::size_t at = header_.pixels_at;
+  int next = 0;
+  const auto find_lines = [&](tbb::flow_control& control) {
+    Batch batch{next, {}};
+    const int end = std::min(next + lines_of_batch, header_.lines());
+    for (; next < end; ++next) {
+      Batch::Line line{at, HdrCoding::flat};
+      at = line_end(next, at, line.coding);
+      batch.lines.push_back(line);
+    }
+    if (batch.lines.empty()) control.stop();
+    return batch;
+  };
+  const auto decode_lines = [&](const Batch& batch) {
+    HdrPlanes planes(length);
+    std::vector<float> rgb(3 * static_cast<std::size_t>(length));
+    for (std::size_t k = 0; k < batch.lines.size(); ++k) {
+      decode_line(batch.lines[k], batch.first + static_cast<int>(k), planes, rgb.data(), decoder, channels,
+                  out);
+    }
+  };
+  tbb::parallel_pipeline(static_cast<std::size_t>(4 * tbb::this_task_arena::max_concurrency()),
+                         tbb::make_filter<void, Batch>(tbb::filter_mode::serial_in_order, find_lines) &
+                             tbb::make_filter<Batch, void>(tbb::filter_mode::parallel, decode_lines));
+}
+
+std::unique_ptr<Reader> open_hdr(const Source& source) {
+  return std::make_unique<HdrReader>(source);
+}
+
+}  // namespace
+
+Format hdr_format() {
+  return {"hdr", {"hdr"}, matches, open_hdr, write_hdr};
+}
+
+}  // namespace welkin::io

@@ -1,0 +1,203 @@
+#include "welkin/io/jpeg/jpeg.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "welkin/base/error.h"
+#include "welkin/io/decode_pixels.h"
+#include "welkin/io/exif.h"
+#include "welkin/io/jpeg/guard.h"
+#include "welkin/io/text_attributes.h"
+
+#include <jerror.h>
+
+namespace welkin::io {
+namespace {
+
+bool matches(std::span<const std::byte> bytes) {
+  constexpr unsigned char kStart[3] = {0xff, 0xd8, 0xff};
+  return bytes.size() >= sizeof kStart && std::memcmp(bytes.data(), kStart, sizeof kStart) == 0;
+}
+
+/// One pass of libjpeg over the file, the header read.
+class Decoder {
+ public:
+  explicit Decoder(const Source& source) : source_(source) {
+    failure_.manager.error_exit = fail_jpeg;
+    failure_.manager.emit_message = judge_warning;
+    codec_.err = &failure_.manager;
+    try {
+      guarded([this] { read_header(); });
+    } catch (...) {
+      jpeg_destroy_decompress(&codec_);
+      throw;
+    }
+  }
+  ~Decoder() { jpeg_destroy_decompress(&codec_); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  jpeg_decompress_struct& codec() { return codec_; }
+
+  /// Calls libjpeg; see guarded_jpeg for what `call` may not hold.
+  template <class Call>
+  void guarded(Call call) {
+    if (guarded_jpeg(failure_, call)) return;
+    throw Error(source_.name + ": " + failure_.text + " (byte " +
+                std::to_string(source_.bytes.size() - input_.bytes_in_buffer) + ")");
+  }
+
+ private:
+  void read_header() {
+    jpeg_create_decompress(&codec_);
+    input_.init_source = [](j_decompress_ptr) {};
+    input_.term_source = [](j_decompress_ptr) {};
+    input_.resync_to_restart = jpeg_resync_to_restart;
+    // The whole file is in the buffer, so whoever asks for more has met its end.
+    input_.fill_input_buffer = [](j_decompress_ptr codec) -> boolean {
+      ERREXIT(codec, JERR_INPUT_EOF);
+      return FALSE;
+    };
+    input_.skip_input_data = [](j_decompress_ptr codec, long count) {
+      if (count <= 0) return;
+      if (static_cast<std::size_t>(count) > codec->src->bytes_in_buffer) ERREXIT(codec, JERR_INPUT_EOF);
+      codec->src->next_input_byte += count;
+      codec->src->bytes_in_buffer -= static_cast<std::size_t>(count);
+    };
+    input_.next_input_byte = reinterpret_cast<const JOCTET*>(source_.bytes.data());
+    input_.bytes_in_buffer = source_.bytes.size();
+    codec_.src = &input_;
+    progress_.progress_monitor = limit_scans;
+    codec_.progress = &progress_;
+    constexpr unsigned kWholeMarker = 0xffff;
+    jpeg_save_markers(&codec_, JPEG_APP0 + 1, kWholeMarker);
+    jpeg_save_markers(&codec_, JPEG_COM, kWholeMarker);
+    jpeg_read_header(&codec_, TRUE);
+  }
+
+  /// libjpeg warns and then makes pixels up. Only what leaves the picture as it was meant passes.
+  static void judge_warning(j_common_ptr codec, int level) {
+    if (level >= 0) return;
+    switch (codec->err->msg_code) {
+      case JWRN_ADOBE_XFORM:
+      case JWRN_BOGUS_ICC:
+      case JWRN_EXTRANEOUS_DATA:
+      case JWRN_JFIF_MAJOR:
+        return;
+      default:
+        fail_jpeg(codec);
+    }
+  }
+
+  /// Each scan of a progressive file costs a pass over the whole picture, and may hold next to no bytes.
+  static void limit_scans(j_common_ptr codec) {
+    constexpr int kMostScans = 500;
+    if (codec->is_decompressor == TRUE &&
+        reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number > kMostScans) {
+      ERREXIT(codec, JERR_BAD_PROGRESSION);
+    }
+  }
+
+  const Source& source_;
+  JpegFailure failure_;
+  jpeg_source_mgr input_{};
+  jpeg_progress_mgr progress_{};
+  jpeg_decompress_struct codec_{};
+};
+
+class JpegReader : public Reader {
+ public:
+  explicit JpegReader(const Source& source) : source_(source) {
+    Decoder decoder(source_);
+    const jpeg_decompress_struct& codec = decoder.codec();
+    std::vector<std::string> channels;
+    switch (codec.jpeg_color_space) {
+      case JCS_GRAYSCALE:
+        channels = {"Y"};
+        break;
+      case JCS_RGB:
+      case JCS_YCbCr:
+        channels = {"R", "G", "B"};
+        break;
+      case JCS_CMYK:
+      case JCS_YCCK:
+        throw Error(source_.name + ": a CMYK picture; save it as RGB");
+      default:
+        throw Error(source_.name + ": a JPEG of " + std::to_string(codec.num_components) +
+                    " components of unknown meaning");
+    }
+    check_size(source_, codec.image_width, codec.image_height, channels.size());
+    // Huffman coding spends at least a bit on each block of 8×8 of the first component, which may be sampled
+    // at a sixteenth of the picture's resolution.
+    const std::uint64_t blocks = std::uint64_t{codec.image_width} * codec.image_height / (DCTSIZE2 * 16);
+    if (codec.arith_code == FALSE && blocks / 8 > source_.bytes.size()) {
+      throw Error(source_.name + ": " + std::to_string(source_.bytes.size()) + " bytes cannot hold " +
+                  std::to_string(codec.image_width) + "×" + std::to_string(codec.image_height) + " pixels");
+    }
+    info_.format = "jpeg";
+    info_.bytes = source_.bytes.size();
+    info_.colour = source_.options.colour == Colour::linear ? Colour::linear : Colour::srgb;
+    info_.parts.push_back({"", static_cast<int>(codec.image_width), static_cast<int>(codec.image_height),
+                           std::move(channels), PixelType::uint8, "jpeg"});
+    if (codec.progressive_mode == TRUE) info_.notes.push_back("progressive");
+    for (jpeg_saved_marker_ptr marker = codec.marker_list; marker != nullptr; marker = marker->next) {
+      read_marker(*marker);
+    }
+  }
+
+  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
+    assert(part == 0 && out.width == info_.parts[0].width && out.height == info_.parts[0].height);
+    assert(channels.size() == static_cast<std::size_t>(out.channels));
+    static_cast<void>(part);
+    const PartInfo& picture = info_.parts[0];
+    const PixelDecoder pixels(picture.type, srgb_channels(picture.channels, info_.colour));
+    Decoder decoder(source_);
+    jpeg_decompress_struct& codec = decoder.codec();
+    decoder.guarded([&] {
+      codec.out_color_space = picture.channels.size() == 1 ? JCS_GRAYSCALE : JCS_RGB;
+      codec.dct_method = JDCT_ISLOW;
+      jpeg_start_decompress(&codec);
+    });
+    constexpr int kRowsOfBand = 64;
+    const std::size_t stride = static_cast<std::size_t>(out.width) * picture.channels.size();
+    std::vector<std::byte> stored(stride * kRowsOfBand);
+    for (int y = 0; y < out.height; y += kRowsOfBand) {
+      const int count = std::min(kRowsOfBand, out.height - y);
+      decoder.guarded([&] {
+        for (int row = 0; row < count;) {
+          auto* start = reinterpret_cast<JSAMPROW>(stored.data() + static_cast<std::size_t>(row) * stride);
+          row += static_cast<int>(jpeg_read_scanlines(&codec, &start, 1));
+        }
+      });
+      pixels.decode_rows(stored.data(), stride, channels, out.part(0, y, out.width, count));
+    }
+    decoder.guarded([&] { jpeg_finish_decompress(&codec); });
+  }
+
+ private:
+  void read_marker(const jpeg_marker_struct& marker) {
+    const std::string_view text(reinterpret_cast<const char*>(marker.data), marker.data_length);
+    if (marker.marker == JPEG_COM) parse_attribute_lines(text, "comment", info_.attributes);
+    constexpr std::string_view kExif("Exif\0\0", 6);
+    if (marker.marker != JPEG_APP0 + 1 || !text.starts_with(kExif)) return;
+    const auto orientation = exif_orientation(std::as_bytes(std::span(text)).subspan(kExif.size()));
+    if (orientation.value_or(1) != 1) {
+      info_.notes.push_back("its Exif orientation of " + std::to_string(*orientation) + " is not applied");
+    }
+  }
+
+  Source source_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reader> open_jpeg(const Source& source) {
+  return std::make_unique<JpegReader>(source);
+}
+
+Format jpeg_format() {
+  return {"jpeg", {"jpg", "jpeg"}, matches, open_jpeg, write_jpeg};
+}
+
+}  // namespace welkin::io

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "welkin/io/ktx2/formats.h"
+
+/// KTX2's data format descriptor: how the bits of a texel are to be understood, and its colour space. Source:
+/// "Khronos Data Format Specification" 1.3, chapters 3 to 5 and the examples B10G11R11 and E5B9G9R9.
+namespace welkin::io::ktx2 {
+
+/// The descriptor of a format's texels: RGB primaries of BT.709, straight alpha. `colour` is linear or srgb.
+std::vector<std::byte> written_descriptor(const TexelFormat& format, Colour colour);
+
+/// What reading wants to know of a descriptor.
+struct Descriptor {
+  Colour colour = Colour::linear;
+  std::vector<std::string> notes;  ///< primaries and transfer functions that are not converted, alpha
+};
+
+/// Throws Error, the cause only, when the descriptor is cut off or is not of the format's kind of texels.
+/// `offset` is where `bytes` begin in the file.
+Descriptor parse_descriptor(std::span<const std::byte> bytes, std::uint64_t offset,
+                            const TexelFormat& format);
+
+}  // namespace welkin::io::ktx2

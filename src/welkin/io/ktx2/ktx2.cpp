@@ -1,0 +1,183 @@
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <mutex>
+
+#include "welkin/base/error.h"
+#include "welkin/io/decode_pixels.h"
+#include "welkin/io/format.h"
+#include "welkin/io/ktx2/descriptor.h"
+#include "welkin/io/ktx2/header.h"
+#include "welkin/io/ktx2/keys.h"
+#include "welkin/io/ktx2/supercompression.h"
+#include "welkin/io/ktx2/texels.h"
+#include "welkin/io/ktx2/writer.h"
+
+namespace welkin::io {
+namespace ktx2 {
+namespace {
+
+/// `level 2 layer 1 +X`, of which only what the texture has.
+std::string picture_name(const Header& header, int level, int layer, int face) {
+  std::string name;
+  const auto append = [&](const std::string& word) { name += (name.empty() ? "" : " ") + word; };
+  if (header.levels.size() > 1) append("level " + std::to_string(level));
+  if (header.layers > 0) append("layer " + std::to_string(layer));
+  if (header.faces == 6) append(kFaceNames[static_cast<std::size_t>(face)]);
+  return name;
+}
+
+class Ktx2Reader final : public Reader {
+ public:
+  explicit Ktx2Reader(const Source& source) : source_(source), header_(parse_header(source)) {
+    info_.format = "ktx2";
+    info_.bytes = source.bytes.size();
+    info_.levels = static_cast<int>(header_.levels.size());
+    info_.layers = header_.layers;
+    info_.faces = header_.faces;
+    try {
+      read_descriptor();
+      read_keys();
+    } catch (const Error& error) {
+      throw Error(source.name + ": " + error.what());
+    }
+    if (header_.one_dimensional) info_.notes.push_back("a texture of one dimension");
+    if (header_.asks_for_levels) info_.notes.push_back("its other levels are to be made from level 0");
+    list_parts();
+  }
+
+  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override;
+
+ private:
+  std::span<const std::byte> section(const Section& section) const {
+    return source_.bytes.subspan(section.offset, section.bytes);
+  }
+
+  void read_descriptor() {
+    Descriptor descriptor =
+        parse_descriptor(section(header_.descriptor), header_.descriptor.offset, *header_.format);
+    info_.colour = source_.options.colour == Colour::automatic ? descriptor.colour : source_.options.colour;
+    info_.notes = std::move(descriptor.notes);
+  }
+
+  void read_keys() {
+    Keys keys = parse_keys(section(header_.keys), header_.keys.offset);
+    info_.attributes = std::move(keys.texts);
+    info_.notes.insert(info_.notes.end(), keys.notes.begin(), keys.notes.end());
+    const auto orientation = info_.attributes.find("KTXorientation");
+    if (orientation != info_.attributes.end()) turn(orientation->second);
+    if (info_.attributes.contains("KTXswizzle"))
+      info_.notes.push_back("KTXswizzle is not applied: channels are those that are stored");
+  }
+
+  /// Which way texels and rows run, `rd` being the way of images here.
+  void turn(const std::string& orientation) {
+    const std::size_t axes = header_.one_dimensional ? 1 : 2;
+    const bool known = orientation.size() == axes && (orientation[0] == 'r' || orientation[0] == 'l') &&
+                       (axes == 1 || orientation[1] == 'd' || orientation[1] == 'u');
+    if (!known) throw Error("KTXorientation is '" + orientation + "', which is not an orientation");
+    from_right_ = orientation[0] == 'l';
+    from_bottom_ = axes == 2 && orientation[1] == 'u';
+    if (!from_right_ && !from_bottom_) return;
+    if (header_.faces == 6)
+      throw Error("KTXorientation of a cube is '" + orientation + "', where the format demands rd");
+    info_.notes.push_back("stored in the orientation " + orientation + "; turned upright");
+  }
+
+  void list_parts() {
+    std::vector<std::string> names;
+    for (const char name : std::string_view("RGBA")) {
+      if (header_.format->channels.find(name) != std::string_view::npos) names.emplace_back(1, name);
+    }
+    for (int level = 0; level < info_.levels; ++level) {
+      const auto index = static_cast<std::size_t>(level);
+      for (int layer = 0; layer < header_.layer_count(); ++layer) {
+        for (int face = 0; face < header_.faces; ++face)
+          info_.parts.push_back({picture_name(header_, level, layer, face), header_.width_of(index),
+                                 header_.height_of(index), names, header_.format->type,
+                                 std::string(name_of(header_.scheme)), level, layer, face});
+      }
+    }
+  }
+
+  /// Unpacked. The level that was read last is kept, since its pictures are read one after the other.
+  std::shared_ptr<const Buffer> unpacked(std::size_t level) {
+    const std::lock_guard lock(mutex_);
+    if (kept_ != nullptr && kept_level_ == level) return kept_;
+    kept_.reset();
+    auto buffer = std::make_shared<Buffer>(Buffer::of_size(header_.levels[level].unpacked_bytes));
+    try {
+      unpack(header_.scheme, section(header_.levels[level].stored), buffer->bytes());
+    } catch (const Error& error) {
+      throw Error(source_.name + ": level " + std::to_string(level) + ": " + error.what() + " (byte " +
+                  std::to_string(header_.levels[level].stored.offset) + ")");
+    }
+    kept_ = buffer;
+    kept_level_ = level;
+    return buffer;
+  }
+
+  Source source_;
+  Header header_;
+  bool from_right_ = false, from_bottom_ = false;
+  std::mutex mutex_;
+  std::shared_ptr<const Buffer> kept_;
+  std::size_t kept_level_ = 0;
+};
+
+void Ktx2Reader::read(std::size_t part_index, std::span<const int> channels, ImageView<float> out) {
+  const PartInfo& part = info_.parts[part_index];
+  assert(out.width == part.width && out.height == part.height);
+  assert(channels.size() == static_cast<std::size_t>(out.channels));
+  const auto level = static_cast<std::size_t>(part.level);
+  std::shared_ptr<const Buffer> buffer;
+  std::span<const std::byte> bytes = section(header_.levels[level].stored);
+  if (header_.scheme != Scheme::none) {
+    buffer = unpacked(level);
+    bytes = buffer->bytes();
+  }
+  const std::size_t picture = part_index % (info_.parts.size() / header_.levels.size());
+  const std::size_t picture_bytes = header_.picture_bytes(level);
+  const std::byte* const first = bytes.subspan(picture * picture_bytes, picture_bytes).data();
+
+  const TexelFormat& format = *header_.format;
+  std::vector<std::string> stored_names;
+  for (const char name : format.channels) stored_names.emplace_back(1, name);
+  std::vector<int> stored_channels;
+  for (const int channel : channels) {
+    const std::string& name = part.channels[static_cast<std::size_t>(channel)];
+    stored_channels.push_back(static_cast<int>(format.channels.find(name)));
+  }
+  const PixelDecoder decoder(format.packed() ? PixelType::float32 : format.type,
+                             srgb_channels(stored_names, info_.colour));
+
+  const std::size_t stride = static_cast<std::size_t>(part.width) * format.bytes();
+  const std::size_t grain = std::max<std::size_t>(1, (1 << 16) / stride);
+  tbb::parallel_for(tbb::blocked_range<int>(0, out.height, grain), [&](const tbb::blocked_range<int>& rows) {
+    std::vector<float> rgb(format.packed() ? 3 * static_cast<std::size_t>(part.width) : 0);
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      const int stored_row = from_bottom_ ? out.height - 1 - y : y;
+      const std::byte* const texels = first + static_cast<std::size_t>(stored_row) * stride;
+      if (format.packed()) decode_packed(format.type, texels, part.width, rgb.data());
+      const void* const values = format.packed() ? static_cast<const void*>(rgb.data()) : texels;
+      float* const to = from_right_ ? out.at(out.width - 1, y) : out.row(y);
+      decoder.decode(values, stored_channels, part.width, to, from_right_ ? -out.channels : out.channels);
+    }
+  });
+}
+
+std::unique_ptr<Reader> open_ktx2(const Source& source) {
+  return std::make_unique<Ktx2Reader>(source);
+}
+
+}  // namespace
+}  // namespace ktx2
+
+Format ktx2_format() {
+  return {"ktx2", {"ktx2"}, ktx2::is_ktx2, ktx2::open_ktx2, ktx2::write_ktx2};
+}
+
+}  // namespace welkin::io

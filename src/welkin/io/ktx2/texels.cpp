@@ -1,0 +1,210 @@
+#include "welkin/io/ktx2/texels.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <limits>
+
+#include "welkin/io/byte_order.h"
+#include "welkin/io/shared_exponent.h"
+#include "welkin/io/small_float.h"
+#include "welkin/io/transfer.h"
+
+namespace welkin::io::ktx2 {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "texels are stored as they lie in memory");
+
+/// Texels that are encoded together: their planes stay in the innermost cache.
+constexpr int kSegment = 256;
+
+template <class T>
+using Plane = std::array<T, kSegment>;
+/// R, G, B, A. Of grey only the first and A are filled.
+using Planes = std::array<Plane<float>, 4>;
+/// Which planes are R, G and B.
+using Colours = std::array<std::size_t, 3>;
+constexpr Colours kGrey{0, 0, 0}, kRgb{0, 1, 2};
+
+constexpr auto kInfinityBits = static_cast<std::int32_t>(0x7f800000u);
+
+/// Counts of one segment; 32 bits, that the loops become SIMD.
+struct Counts {
+  std::int32_t above = 0, below = 0, not_finite = 0;
+};
+
+void add(const Counts& counts, WriteReport& report) {
+  report.above += static_cast<std::uint64_t>(counts.above);
+  report.below += static_cast<std::uint64_t>(counts.below);
+  report.not_finite += static_cast<std::uint64_t>(counts.not_finite);
+}
+
+void gather(const float* in, int channels, int count, float* plane) {
+  for (int i = 0; i < count; ++i) plane[i] = in[static_cast<std::ptrdiff_t>(i) * channels];
+}
+
+void to_halves(const float* plane, int count, std::uint16_t* out, WriteReport& report) {
+  constexpr auto kLargest =
+      static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(largest_small_float<10>()));
+  Counts counts;
+  for (int i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(plane[i]);
+    const auto magnitude = static_cast<std::int32_t>(bits & 0x7fffffffu);
+    const bool above = (magnitude > kLargest) & (magnitude < kInfinityBits);
+    counts.above += above ? 1 : 0;
+    const auto clipped = static_cast<std::uint32_t>(above ? kLargest : magnitude);
+    out[i] = static_cast<std::uint16_t>(small_float_of<10>(clipped) | (bits >> 16 & 0x8000u));
+  }
+  add(counts, report);
+}
+
+template <int kMantissaBits>
+void to_small_floats(const float* plane, int count, std::uint32_t* out, WriteReport& report) {
+  constexpr auto kLargest =
+      static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(largest_small_float<kMantissaBits>()));
+  Counts counts;
+  for (int i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(plane[i]);
+    const auto magnitude = static_cast<std::int32_t>(bits & 0x7fffffffu);
+    const bool above = (magnitude > kLargest) & (magnitude < kInfinityBits);
+    const bool below = (static_cast<std::int32_t>(bits) < 0) & (magnitude > 0) & (magnitude <= kInfinityBits);
+    counts.below += below ? 1 : 0;
+    counts.above += (above & !below) ? 1 : 0;
+    const std::int32_t clipped = above ? kLargest : magnitude;
+    out[i] = small_float_of<kMantissaBits>(static_cast<std::uint32_t>(below ? 0 : clipped));
+  }
+  add(counts, report);
+}
+
+/// Values into [0, kLargestSharedExponent], in place.
+void to_shared_exponent_range(float* plane, int count, WriteReport& report) {
+  constexpr float kLargest = kLargestSharedExponent;
+  Counts counts;
+  for (int i = 0; i < count; ++i) {
+    const float x = plane[i];
+    const auto magnitude = static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(x) & 0x7fffffffu);
+    const bool finite = magnitude < kInfinityBits;
+    counts.not_finite += finite ? 0 : 1;
+    counts.below += (finite & (x < 0)) ? 1 : 0;
+    counts.above += (finite & (x > kLargest)) ? 1 : 0;
+    const float positive = x > 0 ? x : 0.0f;  // 0 of NaN
+    plane[i] = positive < kLargest ? positive : kLargest;
+  }
+  add(counts, report);
+}
+
+/// Grey is counted by its blue, which has the least range.
+void encode_r11g11b10(const Planes& planes, const Colours& colours, int count, std::byte* out,
+                      WriteReport& report) {
+  WriteReport uncounted;
+  Plane<std::uint32_t> r, g, b;
+  WriteReport& of_red_and_green = colours == kGrey ? uncounted : report;
+  to_small_floats<6>(planes[colours[0]].data(), count, r.data(), of_red_and_green);
+  to_small_floats<6>(planes[colours[1]].data(), count, g.data(), of_red_and_green);
+  to_small_floats<5>(planes[colours[2]].data(), count, b.data(), report);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) r[i] |= g[i] << 11 | b[i] << 22;
+  std::memcpy(out, r.data(), static_cast<std::size_t>(count) * sizeof r[0]);
+}
+
+void encode_rgb9e5(Planes& planes, const Colours& colours, int count, std::byte* out, WriteReport& report) {
+  to_shared_exponent_range(planes[0].data(), count, report);
+  for (std::size_t k = 1; k <= colours[2]; ++k) to_shared_exponent_range(planes[k].data(), count, report);
+  const float *r = planes[colours[0]].data(), *g = planes[colours[1]].data(), *b = planes[colours[2]].data();
+  Plane<std::uint32_t> texels;
+  for (int i = 0; i < count; ++i) texels[static_cast<std::size_t>(i)] = shared_exponent_of(r[i], g[i], b[i]);
+  std::memcpy(out, texels.data(), static_cast<std::size_t>(count) * sizeof texels[0]);
+}
+
+template <class T>
+void interleave(const T* r, const T* g, const T* b, const T* a, int count, std::byte* out) {
+  for (int i = 0; i < count; ++i) {
+    const T texel[4] = {r[i], g[i], b[i], a[i]};
+    std::memcpy(out + static_cast<std::size_t>(i) * sizeof texel, texel, sizeof texel);
+  }
+}
+
+void encode_srgb(float* plane, int count) {
+  for (int i = 0; i < count; ++i) plane[i] = static_cast<float>(linear_to_srgb(plane[i]));
+}
+
+void encode_segment(PixelType type, Planes& planes, const Colours& colours, int count, std::byte* out,
+                    WriteReport& report) {
+  if (type == PixelType::r11g11b10) return encode_r11g11b10(planes, colours, count, out, report);
+  if (type == PixelType::rgb9e5) return encode_rgb9e5(planes, colours, count, out, report);
+  const auto interleaved = [&](const auto& stored) {
+    interleave(stored[colours[0]].data(), stored[colours[1]].data(), stored[colours[2]].data(),
+               stored[3].data(), count, out);
+  };
+  if (type == PixelType::float32) return interleaved(planes);
+  std::array<Plane<std::uint16_t>, 4> halves;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (k <= colours[2] || k == 3) to_halves(planes[k].data(), count, halves[k].data(), report);
+  }
+  interleaved(halves);
+}
+
+}  // namespace
+
+TexelEncoder::TexelEncoder(PixelType type, std::vector<int> order, Colour colour)
+    : type_(type),
+      texel_bytes_(format_for(type).bytes()),
+      order_(std::move(order)),
+      srgb_(colour == Colour::srgb) {
+  const bool packed = type == PixelType::rgb9e5 || type == PixelType::r11g11b10;
+  assert(packed ? order_.size() == 1 || order_.size() == 3 : !order_.empty());
+  static_cast<void>(packed);
+  copies_ = type == PixelType::float32 && !srgb_ && order_.size() >= 3;
+  for (std::size_t k = 0; k < order_.size(); ++k) copies_ = copies_ && order_[k] == static_cast<int>(k);
+}
+
+void TexelEncoder::encode(const float* in, int channels, int count, std::byte* out,
+                          WriteReport& report) const {
+  constexpr std::size_t kTexel = 4 * sizeof(float);
+  if (copies_ && channels == 4 && order_.size() == 4) {
+    std::memcpy(out, in, static_cast<std::size_t>(count) * kTexel);
+    return;
+  }
+  if (copies_ && order_.size() == 3) {
+    // Four values at once where a fourth is there to be read, then 1 over it.
+    constexpr float kOpaque = 1;
+    for (int i = 0; i + 1 < count; ++i, in += channels, out += kTexel) {
+      std::memcpy(out, in, kTexel);
+      std::memcpy(out + 3 * sizeof(float), &kOpaque, sizeof kOpaque);
+    }
+    std::memcpy(out, in, 3 * sizeof(float));
+    std::memcpy(out + 3 * sizeof(float), &kOpaque, sizeof kOpaque);
+    return;
+  }
+
+  const bool alpha = order_.size() % 2 == 0;
+  const Colours& colours = order_.size() <= 2 ? kGrey : kRgb;
+  Planes planes;
+  planes[3].fill(1);
+  for (int n = 0; count > 0; count -= n, in += static_cast<std::ptrdiff_t>(n) * channels) {
+    n = std::min(count, kSegment);
+    for (std::size_t k = 0; k <= colours[2]; ++k) {
+      gather(in + order_[k], channels, n, planes[k].data());
+      if (srgb_) encode_srgb(planes[k].data(), n);
+    }
+    if (alpha) gather(in + order_.back(), channels, n, planes[3].data());
+    encode_segment(type_, planes, colours, n, out, report);
+    out += static_cast<std::size_t>(n) * texel_bytes_;
+  }
+}
+
+void decode_packed(PixelType type, const std::byte* stored, int count, float* rgb) {
+  for (int i = 0; i < count; ++i, stored += sizeof(std::uint32_t), rgb += 3) {
+    const auto texel = load_native<std::uint32_t>(stored);
+    if (type == PixelType::rgb9e5) {
+      values_of_shared_exponent(texel, rgb);
+    } else {
+      rgb[0] = float_of_small<6>(texel);
+      rgb[1] = float_of_small<6>(texel >> 11);
+      rgb[2] = float_of_small<5>(texel >> 22);
+    }
+  }
+}
+
+}  // namespace welkin::io::ktx2

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "welkin/io/ktx2/formats.h"
+
+/// Rows of linear floats ↔ rows of texels as KTX2 stores them, tightly packed.
+namespace welkin::io::ktx2 {
+
+/// Encodes rows in the formats of format_for. Grey becomes three equal values; alpha is 1 where there is
+/// none.
+///
+/// Float keeps every value. Half keeps infinities and NaN; finite values beyond ±65504 are clipped (`above`).
+/// r11g11b10 keeps +infinity and NaN, and clips at 65024 (R, G) and 64512 (B); rgb9e5 clips at 65408. In both
+/// negative values become 0 (`below`). rgb9e5 stores infinity as its largest value, NaN as 0 (`not_finite`).
+/// Rounding is to nearest, in rgb9e5 as its extension demands.
+class TexelEncoder {
+ public:
+  /// `order` as channel_order gives it: Y, Y A, R G B or R G B A; no A for packed types. `colour` is linear
+  /// or srgb, in which colour values are encoded before they are stored.
+  TexelEncoder(PixelType type, std::vector<int> order, Colour colour);
+
+  /// `count` texels of `channels` values at `in`, to `out`, of any alignment.
+  void encode(const float* in, int channels, int count, std::byte* out, WriteReport& report) const;
+
+ private:
+  PixelType type_;
+  std::size_t texel_bytes_;
+  std::vector<int> order_;
+  bool srgb_;
+  bool copies_;
+};
+
+/// `count` texels of a packed type to interleaved R G B; exact.
+void decode_packed(PixelType type, const std::byte* stored, int count, float* rgb);
+
+}  // namespace welkin::io::ktx2

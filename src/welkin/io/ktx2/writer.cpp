@@ -1,0 +1,247 @@
+#include "welkin/io/ktx2/writer.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <vector>
+
+#include "welkin/base/error.h"
+#include "welkin/io/encode_pixels.h"
+#include "welkin/io/ktx2/descriptor.h"
+#include "welkin/io/ktx2/header.h"
+#include "welkin/io/ktx2/keys.h"
+#include "welkin/io/ktx2/supercompression.h"
+#include "welkin/io/ktx2/texels.h"
+#include "welkin/io/write_choices.h"
+
+namespace welkin::io::ktx2 {
+namespace {
+
+/// The parts in the order in which a level holds them, and the header's sizes.
+class Pictures {
+ public:
+  Pictures(std::span<const WritePart> parts, Header& header) {
+    int levels = 0, layers = 0, faces = 0;
+    for (const WritePart& part : parts) {
+      if (part.level < 0 || part.layer < 0 || part.face < 0 || part.face > 5)
+        throw Error("level " + std::to_string(part.level) + ", layer " + std::to_string(part.layer) +
+                    ", face " + std::to_string(part.face) + " is no place in a texture");
+      levels = std::max(levels, part.level + 1);
+      layers = std::max(layers, part.layer + 1);
+      faces = std::max(faces, part.face + 1);
+    }
+    header.faces = faces == 1 ? 1 : 6;
+    header.layers = layers == 1 ? 0 : layers;
+    const auto pictures = static_cast<std::uint64_t>(levels) * static_cast<std::uint64_t>(layers) *
+                          static_cast<std::uint64_t>(header.faces);
+    if (pictures > kMostPictures)
+      throw Error(std::to_string(pictures) + " pictures, more than " + std::to_string(kMostPictures));
+    header.levels.resize(static_cast<std::size_t>(levels));
+    place(parts, header);
+    check_sizes(header);
+  }
+
+  const WritePart& at(std::size_t level, std::size_t picture) const {
+    return *parts_[level * of_level_ + picture];
+  }
+  std::size_t of_level() const { return of_level_; }
+
+ private:
+  static std::string name(const Header& header, std::size_t level, std::size_t picture) {
+    const auto faces = static_cast<std::size_t>(header.faces);
+    std::string text = "level " + std::to_string(level);
+    if (header.layers > 0) text += " layer " + std::to_string(picture / faces);
+    return faces == 6 ? text + " " + kFaceNames[picture % faces] : text;
+  }
+
+  void place(std::span<const WritePart> parts, const Header& header) {
+    const auto faces = static_cast<std::size_t>(header.faces);
+    of_level_ = static_cast<std::size_t>(header.layer_count()) * faces;
+    parts_.resize(header.levels.size() * of_level_);
+    for (const WritePart& part : parts) {
+      const auto level = static_cast<std::size_t>(part.level);
+      const auto picture = static_cast<std::size_t>(part.layer) * faces + static_cast<std::size_t>(part.face);
+      const WritePart*& place = parts_[level * of_level_ + picture];
+      if (place != nullptr) throw Error("two pictures for " + name(header, level, picture));
+      place = &part;
+    }
+    const auto missing = std::find(parts_.begin(), parts_.end(), nullptr);
+    if (missing == parts_.end()) return;
+    const auto index = static_cast<std::size_t>(missing - parts_.begin());
+    throw Error("no picture for " + name(header, index / of_level_, index % of_level_));
+  }
+
+  void check_sizes(Header& header) const {
+    header.width = parts_[0]->image.width;
+    header.height = parts_[0]->image.height;
+    const auto size_text = [](int width, int height) {
+      return std::to_string(width) + "×" + std::to_string(height);
+    };
+    if (header.faces == 6 && header.width != header.height)
+      throw Error("the faces of a cube must be square, not " + size_text(header.width, header.height));
+    const auto most = static_cast<std::size_t>(
+        std::bit_width(static_cast<unsigned>(std::max(header.width, header.height))));
+    if (header.levels.size() > most)
+      throw Error(std::to_string(header.levels.size()) + " levels, of which " +
+                  size_text(header.width, header.height) + " has at most " + std::to_string(most));
+    for (std::size_t level = 0; level < header.levels.size(); ++level) {
+      const int width = header.width_of(level), height = header.height_of(level);
+      for (std::size_t i = 0; i < of_level_; ++i) {
+        const ImageView<const float>& image = at(level, i).image;
+        if (image.width == width && image.height == height) continue;
+        throw Error(name(header, level, i) + " is " + size_text(image.width, image.height) + ", not " +
+                    size_text(width, height));
+      }
+    }
+  }
+
+  std::size_t of_level_ = 1;
+  std::vector<const WritePart*> parts_;  ///< level by level, layer by layer, face by face
+};
+
+class Writer {
+ public:
+  Writer(std::span<const WritePart> parts, const WriteOptions& options) : pictures_(parts, header_) {
+    static constexpr std::array types{PixelType::float32, PixelType::half, PixelType::rgb9e5,
+                                      PixelType::r11g11b10};
+    static const std::array<std::string, 2> known{"none", "zstd"};
+    const PixelType type = pixel_type(options, types, "KTX2");
+    header_.format = &format_for(type);
+    header_.scheme = compression(options, known, "KTX2") == "zstd" ? Scheme::zstd : Scheme::none;
+    const Colour colour = colour_for(type, options.colour);
+    const bool packed = header_.format->packed();
+    const std::string holder = packed ? "KTX2 of " + std::string(io::name_of(type)) : "KTX2";
+    for (std::size_t level = 0; level < header_.levels.size(); ++level) {
+      for (std::size_t i = 0; i < pictures_.of_level(); ++i)
+        encoders_.emplace_back(
+            type, channel_order(pictures_.at(level, i), packed ? Alpha::none : Alpha::allowed, holder),
+            colour);
+    }
+
+    const std::vector<std::byte> descriptor = written_descriptor(*header_.format, colour);
+    const std::vector<std::byte> keys = written_keys(options.attributes);
+    header_.descriptor = {header_bytes(header_.levels.size()), descriptor.size()};
+    header_.keys = {header_.descriptor.offset + descriptor.size(), keys.size()};
+    if (header_.keys.offset + header_.keys.bytes > std::numeric_limits<std::uint32_t>::max())
+      throw Error("the attributes need more than 4 GiB");
+    head_ = descriptor;
+    head_.insert(head_.end(), keys.begin(), keys.end());
+    for (std::size_t level = 0; level < header_.levels.size(); ++level)
+      header_.levels[level].unpacked_bytes = header_.level_bytes(level);
+  }
+
+  WriteReport write(OutputFile& file) {
+    return header_.scheme == Scheme::none ? write_plain(file) : write_packed(file);
+  }
+
+ private:
+  /// Rows of a level, counted through all its pictures.
+  WriteReport encode_rows(std::size_t level, std::size_t first, std::size_t end, std::byte* out) const {
+    constexpr std::size_t kBytesOfTask = 1 << 16;
+    const auto height = static_cast<std::size_t>(header_.height_of(level));
+    const std::size_t stride = row_bytes(level), grain = std::max<std::size_t>(1, kBytesOfTask / stride);
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(first, end, grain), WriteReport{},
+        [&](const tbb::blocked_range<std::size_t>& rows, WriteReport report) {
+          for (std::size_t row = rows.begin(); row < rows.end(); ++row) {
+            const std::size_t picture = row / height;
+            const ImageView<const float>& image = pictures_.at(level, picture).image;
+            encoders_[level * pictures_.of_level() + picture].encode(
+                image.row(static_cast<int>(row % height)), image.channels, image.width,
+                out + (row - first) * stride, report);
+          }
+          return report;
+        },
+        [](const WriteReport& a, const WriteReport& b) { return a + b; }, tbb::simple_partitioner());
+  }
+
+  std::size_t row_bytes(std::size_t level) const {
+    return static_cast<std::size_t>(header_.width_of(level)) * header_.format->bytes();
+  }
+  std::size_t rows(std::size_t level) const {
+    return static_cast<std::size_t>(header_.height_of(level)) * pictures_.of_level();
+  }
+
+  /// Gives the levels, whose stored sizes are known, their offsets, and writes what stands before them.
+  void write_head(OutputFile& file) {
+    const std::uint64_t alignment = level_alignment(header_);
+    std::uint64_t offset = header_.keys.offset + header_.keys.bytes;
+    for (std::size_t level = header_.levels.size(); level-- > 0;) {
+      Section& stored = header_.levels[level].stored;
+      stored.offset = (offset + alignment - 1) / alignment * alignment;
+      offset = stored.offset + stored.bytes;
+    }
+    std::vector<std::byte> bytes = written_header(header_);
+    bytes.insert(bytes.end(), head_.begin(), head_.end());
+    file.write(bytes);
+  }
+
+  /// Levels have sizes that are multiples of their alignment, so only the first needs bytes before it.
+  static void pad_to(OutputFile& file, std::uint64_t offset) {
+    static constexpr std::array<std::byte, 16> kZeros{};
+    file.write(std::span(kZeros).first(offset - file.tell()));
+  }
+
+  WriteReport write_plain(OutputFile& file) {
+    for (Level& level : header_.levels) level.stored.bytes = level.unpacked_bytes;
+    write_head(file);
+    constexpr std::size_t kBatchBytes = std::size_t{4} << 20;
+    const std::size_t largest_row = row_bytes(0);
+    const std::size_t whole =
+        static_cast<std::size_t>(std::min<std::uint64_t>(kBatchBytes, header_.levels[0].unpacked_bytes));
+    const Buffer batch = Buffer::of_size(std::max(largest_row, whole));
+    WriteReport report;
+    for (std::size_t level = header_.levels.size(); level-- > 0;) {
+      pad_to(file, header_.levels[level].stored.offset);
+      const std::size_t count = rows(level),
+                        at_once = std::max<std::size_t>(1, batch.size / row_bytes(level));
+      for (std::size_t first = 0; first < count; first += at_once) {
+        const std::size_t end = std::min(count, first + at_once);
+        report = report + encode_rows(level, first, end, batch.data.get());
+        file.write(batch.bytes().first((end - first) * row_bytes(level)));
+      }
+    }
+    return report;
+  }
+
+  WriteReport write_packed(OutputFile& file) {
+    std::vector<Buffer> packed(header_.levels.size());
+    std::vector<WriteReport> reports(header_.levels.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, packed.size(), 1),
+        [&](const tbb::blocked_range<std::size_t>& levels) {
+          for (std::size_t level = levels.begin(); level < levels.end(); ++level) {
+            Buffer texels = Buffer::of_size(header_.levels[level].unpacked_bytes);
+            reports[level] = encode_rows(level, 0, rows(level), texels.data.get());
+            packed[level] = pack_zstd(texels.bytes());
+          }
+        },
+        tbb::simple_partitioner());
+    WriteReport report;
+    for (std::size_t level = 0; level < packed.size(); ++level) {
+      header_.levels[level].stored.bytes = packed[level].size;
+      report = report + reports[level];
+    }
+    write_head(file);
+    for (std::size_t level = packed.size(); level-- > 0;) file.write(packed[level].bytes());
+    return report;
+  }
+
+  Header header_;
+  Pictures pictures_;
+  std::vector<TexelEncoder> encoders_;  ///< one for each picture
+  std::vector<std::byte> head_;         ///< descriptor and keys
+};
+
+}  // namespace
+
+WriteReport write_ktx2(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
+  return Writer(parts, options).write(file);
+}
+
+}  // namespace welkin::io::ktx2

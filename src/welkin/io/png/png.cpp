@@ -1,0 +1,271 @@
+#include "welkin/io/png/png.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+#include "welkin/base/error.h"
+#include "welkin/io/byte_order.h"
+#include "welkin/io/decode_pixels.h"
+#include "welkin/io/png/guard.h"
+
+namespace welkin::io {
+namespace {
+
+constexpr unsigned char kSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+
+/// Deflate cannot compress better (zlib's technical details: 1032:1).
+constexpr std::uint64_t kBestDeflateRatio = 1032;
+
+/// Text and profiles may claim, or expand to, any size: together they get 1 GiB at most.
+constexpr png_alloc_size_t kMostOfChunk = png_alloc_size_t{8} << 20;
+constexpr png_uint_32 kMostChunksKept = 128;
+
+bool matches(std::span<const std::byte> bytes) {
+  return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
+}
+
+/// Throws unless whole chunks, as their lengths say, lead to an IEND. libpng would first make room for a
+/// chunk of any length and then miss its bytes.
+void check_chunks(const Source& source) {
+  constexpr std::size_t kAround = 12;  // length, name and checksum
+  const auto fail = [&](const char* cause, std::size_t at) {
+    throw Error(source.name + ": " + cause + " (byte " + std::to_string(at) + ")");
+  };
+  for (std::size_t at = sizeof kSignature;;) {
+    const std::size_t left = source.bytes.size() - at;
+    if (left < kAround) fail("ends early", source.bytes.size());
+    const std::size_t length = load<std::uint32_t>(&source.bytes[at], std::endian::big);
+    if (length > left - kAround) fail("ends early: a chunk passes the end of the file", at);
+    if (std::memcmp(&source.bytes[at + 4], "IEND", 4) == 0) return;
+    at += kAround + length;
+  }
+}
+
+/// tEXt is Latin-1; attributes are UTF-8.
+std::string from_latin1(std::string_view text) {
+  std::string utf8;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 128) {
+      utf8 += c;
+    } else {
+      utf8 += static_cast<char>(0xc0 | code >> 6);
+      utf8 += static_cast<char>(0x80 | (code & 63));
+    }
+  }
+  return utf8;
+}
+
+/// One pass of libpng over the file, the header read and all transformations chosen.
+class Decoder {
+ public:
+  explicit Decoder(const Source& source) : source_(source) {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure_, fail_png, ignore_png_warning);
+    info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
+    try {
+      if (info_ == nullptr) throw std::bad_alloc();
+      guarded([this] { read_header(); });
+    } catch (...) {
+      png_destroy_read_struct(&png_, &info_, nullptr);
+      throw;
+    }
+  }
+  ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  png_structp png() const { return png_; }
+  png_infop info() const { return info_; }
+
+  /// Calls libpng; see guarded_png for what `call` may not hold.
+  template <class Call>
+  void guarded(Call call) {
+    if (guarded_png(png_, call)) return;
+    throw Error(source_.name + ": " + failure_.text + " (byte " + std::to_string(at_) + ")");
+  }
+
+  /// Palettes, fewer than 8 bits and tRNS become plain channels. Afterwards png_get_* tell of what rows will
+  /// hold.
+  void expand() {
+    guarded([this] {
+      png_set_expand(png_);
+      if (std::endian::native == std::endian::little && png_get_bit_depth(png_, info_) == 16)
+        png_set_swap(png_);
+      png_set_interlace_handling(png_);
+      png_read_update_info(png_, info_);
+    });
+  }
+
+ private:
+  void read_header() {
+    png_set_read_fn(png_, this, read_bytes);
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size is the limit
+    png_set_chunk_malloc_max(png_, kMostOfChunk);
+    png_set_chunk_cache_max(png_, kMostChunksKept);
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS, reinterpret_cast<png_const_bytep>("cICP"), 1);
+    png_read_info(png_, info_);
+  }
+
+  static void read_bytes(png_structp png, png_bytep out, std::size_t size) {
+    auto* self = static_cast<Decoder*>(png_get_io_ptr(png));
+    if (size > self->source_.bytes.size() - self->at_) {
+      self->at_ = self->source_.bytes.size();
+      png_error(png, "ends early");
+    }
+    std::memcpy(out, self->source_.bytes.data() + self->at_, size);
+    self->at_ += size;
+  }
+
+  const Source& source_;
+  std::size_t at_ = 0;
+  PngFailure failure_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
+
+std::string names_of_colour_type(int colour_type) {
+  if (colour_type == PNG_COLOR_TYPE_PALETTE) return "palette";
+  return (colour_type & PNG_COLOR_MASK_COLOR) != 0 ? "colour" : "grey";
+}
+
+class PngReader : public Reader {
+ public:
+  explicit PngReader(const Source& source) : source_(source) {
+    check_chunks(source_);
+    Decoder decoder(source_);
+    const png_structp png = decoder.png();
+    const png_infop info = decoder.info();
+    const std::uint64_t width = png_get_image_width(png, info);
+    const std::uint64_t height = png_get_image_height(png, info);
+    check_size(source_, width, height, 1);
+    if (png_get_rowbytes(png, info) * height / kBestDeflateRatio > source_.bytes.size()) {
+      throw Error(source_.name + ": " + std::to_string(source_.bytes.size()) + " bytes cannot hold " +
+                  std::to_string(width) + "×" + std::to_string(height) + " pixels");
+    }
+    info_.format = "png";
+    info_.bytes = source_.bytes.size();
+    const int depth = png_get_bit_depth(png, info);
+    const int colour_type = png_get_color_type(png, info);
+    if (depth < 8 || colour_type == PNG_COLOR_TYPE_PALETTE) {
+      info_.notes.push_back("expanded from " + std::to_string(depth) + "-bit " +
+                            names_of_colour_type(colour_type));
+    }
+    interlaced_ = png_get_interlace_type(png, info) != PNG_INTERLACE_NONE;
+    if (interlaced_) info_.notes.push_back("interlaced");
+    read_colour(png, info);
+    read_text(png, info);
+
+    decoder.expand();
+    static const std::vector<std::string> names[] = {
+        {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+    const int channels = png_get_channels(png, info);
+    check_size(source_, width, height, static_cast<std::uint64_t>(channels));
+    info_.parts.push_back({"", static_cast<int>(width), static_cast<int>(height), names[channels - 1],
+                           png_get_bit_depth(png, info) == 16 ? PixelType::uint16 : PixelType::uint8,
+                           "deflate"});
+  }
+
+  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
+    assert(part == 0 && out.width == info_.parts[0].width && out.height == info_.parts[0].height);
+    assert(channels.size() == static_cast<std::size_t>(out.channels));
+    static_cast<void>(part);
+    const PartInfo& picture = info_.parts[0];
+    const PixelDecoder pixels(picture.type, srgb_channels(picture.channels, info_.colour));
+    Decoder decoder(source_);
+    decoder.expand();
+
+    // Interlaced passes are spread over the whole picture; otherwise a band of rows stays in the cache.
+    constexpr int kRowsOfBand = 64;
+    const int band = interlaced_ ? out.height : std::min(out.height, kRowsOfBand);
+    const std::size_t stride = png_get_rowbytes(decoder.png(), decoder.info());
+    std::vector<std::byte> stored(stride * static_cast<std::size_t>(band));
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < band; ++y) {
+      rows.push_back(reinterpret_cast<png_bytep>(stored.data() + stride * static_cast<std::size_t>(y)));
+    }
+    for (int y = 0; y < out.height; y += band) {
+      const int count = std::min(band, out.height - y);
+      decoder.guarded([&] {
+        if (interlaced_) {
+          png_read_image(decoder.png(), rows.data());
+        } else {
+          png_read_rows(decoder.png(), rows.data(), nullptr, static_cast<png_uint_32>(count));
+        }
+      });
+      pixels.decode_rows(stored.data(), stride, channels, out.part(0, y, out.width, count));
+    }
+    decoder.guarded([&] { png_read_end(decoder.png(), nullptr); });
+  }
+
+ private:
+  /// What the file says of its transfer function, the most specific chunk first (PNG third edition, 4.3).
+  void read_colour(png_structp png, png_infop info) {
+    constexpr int kTransferLinear = 8, kTransferSrgb = 13;  // ITU-T H.273
+    Colour said = Colour::srgb;
+    const std::vector<int> code_points = read_cicp(png, info);
+    double gamma = 0;
+    if (!code_points.empty()) {
+      const int transfer = code_points[1];
+      said = transfer == kTransferLinear ? Colour::linear : Colour::srgb;
+      if (transfer == kTransferLinear) {
+        info_.notes.push_back("linear by its cICP chunk");
+      } else if (transfer != kTransferSrgb) {
+        info_.notes.push_back("its cICP transfer function " + std::to_string(transfer) +
+                              " (ITU-T H.273) is not known here; sRGB is assumed");
+      }
+    } else if (png_get_valid(png, info, PNG_INFO_iCCP) != 0) {
+      info_.notes.push_back("its ICC profile is ignored; sRGB is assumed");
+    } else if (png_get_valid(png, info, PNG_INFO_sRGB) == 0 && png_get_gAMA(png, info, &gamma) != 0) {
+      constexpr double kSrgbGamma = 0.45455, kTolerance = 0.005;
+      said = std::abs(gamma - 1) < kTolerance ? Colour::linear : Colour::srgb;
+      if (said == Colour::linear) {
+        info_.notes.push_back("linear by its gAMA chunk");
+      } else if (std::abs(gamma - kSrgbGamma) > kTolerance) {
+        info_.notes.push_back("its gAMA of " + std::to_string(gamma) + " is ignored; sRGB is assumed");
+      }
+    }
+    info_.colour = source_.options.colour == Colour::automatic ? said : source_.options.colour;
+  }
+
+  /// Colour primaries, transfer function, matrix, range; empty when there is no cICP chunk.
+  static std::vector<int> read_cicp(png_structp png, png_infop info) {
+    png_unknown_chunkp chunks = nullptr;
+    const int count = png_get_unknown_chunks(png, info, &chunks);
+    for (int i = 0; i < count; ++i) {
+      if (std::memcmp(chunks[i].name, "cICP", 4) == 0 && chunks[i].size == 4) {
+        return {chunks[i].data, chunks[i].data + 4};
+      }
+    }
+    return {};
+  }
+
+  void read_text(png_structp png, png_infop info) {
+    png_textp texts = nullptr;
+    const int count = png_get_text(png, info, &texts, nullptr);
+    for (int i = 0; i < count; ++i) {
+      const bool utf8 = texts[i].compression >= PNG_ITXT_COMPRESSION_NONE;
+      const std::string_view value =
+          texts[i].text == nullptr
+              ? std::string_view()
+              : std::string_view(texts[i].text, utf8 ? texts[i].itxt_length : texts[i].text_length);
+      info_.attributes.emplace(from_latin1(texts[i].key), utf8 ? std::string(value) : from_latin1(value));
+    }
+  }
+
+  Source source_;
+  bool interlaced_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Reader> open_png(const Source& source) {
+  return std::make_unique<PngReader>(source);
+}
+
+Format png_format() {
+  return {"png", {"png"}, matches, open_png, write_png};
+}
+
+}  // namespace welkin::io

@@ -1,9 +1,0 @@
-#include "welkin/map/fetch_impl.h"
-
-namespace welkin {
-
-FetchKernels fetch_kernels_baseline(int channels) {
-  return FetchTable<xsimd::default_arch, BaselineFour>::of(channels);
-}
-
-}  // namespace welkin

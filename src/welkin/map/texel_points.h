@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "welkin/map/map.h"
+
+/// What a texel covers, as points to sum over. Gauss's rule of 2×2 points does for most texels; not for those
+/// that the rim of a disc or the side of a triangle cuts, nor where the density has a kink, as along the
+/// diagonals of an octahedron, nor for those that are a good part of the sphere.
+namespace welkin {
+
+/// Gauss's two points in 0 … 1: ½ ∓ 1/√12.
+inline constexpr double kGauss[2] = {0.21132486540518713, 0.78867513459481287};
+
+/// A rectangle of a chart, in its u and v.
+struct ChartCell {
+  int chart;
+  double u, v;  ///< its least
+  double width, height;
+
+  /// Part `x` of `columns`, `y` of `rows`.
+  ChartCell part(int x, int columns, int y, int rows) const;
+};
+
+/// A texel of charts of that size.
+ChartCell texel_cell(ChartSize size, int chart, int x, int y);
+
+struct TexelPoint {
+  Vec3d direction;
+  double solid_angle;
+};
+
+/// Gauss's rule of 2×2 points, of a cell that lies within the chart's valid places.
+void append_gauss_points(const sphere::AnyParameterization& p, const ChartCell& cell,
+                         std::vector<TexelPoint>& points);
+
+/// How far cells are cut up.
+struct CellLimits {
+  double solid_angle;  ///< sr: until that would change it by less
+  double side = 10;    ///< radians: until points are no farther apart
+  int rim_depth = 3;   ///< so often at a rim, before that is followed in strips
+};
+
+/// Points of any cell, cut up to these limits; of its valid part alone. Where a rim bounds it a part is
+/// missed, of a texel about 1e-4, of the quarter of a whole disc 6e-4. None when no place of it is valid.
+void append_points(const sphere::AnyParameterization& p, const ChartCell& cell, const CellLimits& limits,
+                   std::vector<TexelPoint>& points);
+
+/// A side of a texel of average solid angle, radians.
+double mean_texel(const sphere::AnyParameterization& p, ChartSize size);
+
+/// A millionth of a texel of average solid angle.
+CellLimits texel_limits(const sphere::AnyParameterization& p, ChartSize size);
+
+/// How a texel is to be summed up.
+enum class TexelKind : unsigned char {
+  outside,    ///< no place of the map
+  plain,      ///< 2×2 points give its solid angle within 1e-5
+  irregular,  ///< append_points
+};
+
+/// The kinds of the texels of a chart's row.
+std::vector<TexelKind> texel_kinds(const sphere::AnyParameterization& p, ChartSize size, int chart, int row);
+
+/// Solid angles of the texels of a chart's row, sr, as the points above have them.
+std::vector<double> summed_solid_angles(const sphere::AnyParameterization& p, ChartSize size, int chart,
+                                        int row);
+
+}  // namespace welkin

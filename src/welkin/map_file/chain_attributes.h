@@ -1,0 +1,18 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "welkin/map/chain.h"
+
+namespace welkin {
+
+/// As text metadata: `welkin.lobe`, `welkin.roughness` (`0,0.125,…`), `welkin.roughness-curve`,
+/// `welkin.normalisation`, `welkin.software`, those that aren't empty.
+std::map<std::string, std::string> attributes_of(const ChainNotes& notes);
+
+/// The reverse. Numbers that are none, not finite or negative make no roughness at all, and neither do more
+/// of them than a chain can have levels; it never throws.
+ChainNotes chain_notes_from(const std::map<std::string, std::string>& attributes);
+
+}  // namespace welkin

@@ -1,0 +1,265 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "welkin/base/error.h"
+#include "welkin/map_file/chain_attributes.h"
+#include "welkin/map_file/chain_file.h"
+#include "welkin/map_file/map_file_job.h"
+
+/// What a file holds: its own word, the caller's, or a guess.
+namespace welkin::map_file {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<Matrix3> matrix_from(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  Matrix3 m;
+  for (auto& row : m.rows) {
+    for (double& value : row) {
+      if (!(in >> value)) return std::nullopt;
+    }
+  }
+  if (!is_orthonormal(m)) return std::nullopt;
+  return m;
+}
+
+/// Whether a picture of this size can be of this shape: within one texel, or a hundredth, of the aspect.
+/// Texels of the equal-area map are never square, so it may have any aspect.
+bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
+  const auto size = chart_size_in(shape.layout, width, height);
+  if (!size) return false;
+  chart = *size;
+  if (shape.parameterization.name() == "equal-area") return true;
+  const double wide = shape.parameterization.aspect() * chart.height;
+  const double high = chart.width / shape.parameterization.aspect();
+  return std::fabs(wide - chart.width) <= std::max(1.0, 0.01 * wide) || std::fabs(high - chart.height) < 1;
+}
+
+/// What a picture's size, or the kind of texture, suggests.
+std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& file, bool pattern) {
+  const int width = file.parts[0].width, height = file.parts[0].height;
+  if (pattern) return std::pair("cube:faces", "six files");
+  if (file.faces == 6) return std::pair("cube:layers", "a cube texture");
+  if (pictures_of(file, 0).size() == 6 && width == height)
+    return std::pair("cube:layers", "six square parts");
+  const auto ratio = [&](int across, int down) {
+    return static_cast<long>(width) * down == static_cast<long>(height) * across;
+  };
+  if (std::abs(width - 2 * height) <= 1) return std::pair("latlong", "guessed from the aspect 2:1");
+  if (ratio(4, 3)) return std::pair("cube:hcross", "guessed from the aspect 4:3");
+  if (ratio(3, 4)) return std::pair("cube:vcross", "guessed from the aspect 3:4");
+  if (ratio(6, 1)) return std::pair("cube:hstrip", "guessed from the aspect 6:1");
+  if (ratio(1, 6)) return std::pair("cube:vstrip", "guessed from the aspect 1:6");
+  if (ratio(3, 2)) return std::pair("cube:3x2", "guessed from the aspect 3:2");
+  return std::nullopt;
+}
+
+/// A declared count, 0 when there is none or it makes no sense.
+int positive_number(const std::string& text) {
+  const long value = std::strtol(text.c_str(), nullptr, 10);
+  return value > 0 && value < (1 << 20) ? static_cast<int>(value) : 0;
+}
+
+/// The grid of charts in one picture: a single cell where each has its own.
+Layout grid_of_picture(const Layout& layout) {
+  return layout.kind == LayoutKind::picture ? layout : Layout{};
+}
+
+/// Whether another program turned our map into the one that its `envmap` declares, and copied our declaration
+/// along.
+bool is_copied(const std::string& declared, const io::FileInfo& file) {
+  return file.envmap && !declared.starts_with("openexr-" + *file.envmap);
+}
+
+/// Whether the file's pictures are the charts of a map: faces or layers of a texture.
+bool is_array(const io::FileInfo& file) {
+  return file.faces > 1 || file.layers > 1;
+}
+
+/// The shape as text, and the faces, with the reason for them; the text is empty when nothing suggests one.
+struct Declaration {
+  std::string shape, faces, reason;
+};
+
+Declaration declaration_for(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options) {
+  const bool pattern = is_pattern(path);
+  if (options.shape) {
+    std::string shape = *options.shape;
+    const auto several_charts = [&] { return parse_map_shape(shape).parameterization.charts() > 1; };
+    if (shape.find(':') == std::string::npos && (pattern || (is_array(file) && several_charts())))
+      shape.insert(std::min(shape.find(','), shape.size()), pattern ? ":faces" : ":layers");
+    return {shape, options.faces, "as asked"};
+  }
+  const std::string declared = attribute(file, kShapeKey);
+  if (!declared.empty() && !is_copied(declared, file)) {
+    return {declared, options.faces.empty() ? attribute(file, kFacesKey) : options.faces,
+            "declared by the file"};
+  }
+  if (file.envmap) {
+    const bool cube = *file.envmap == "cube";
+    return {cube ? "openexr-cube:openexr" : "openexr-latlong", options.faces,
+            "declared by the envmap attribute"};
+  }
+  if (const auto guessed = guess(file, pattern)) return {guessed->first, options.faces, guessed->second};
+  return {"", options.faces, "the file declares no parameterization, and its size suggests none"};
+}
+
+/// The shape that is declared, its layout as it lies in the file.
+MapShape shape_from(const Declaration& declaration, const Matrix3& orientation) {
+  MapShape shape = parse_map_shape(declaration.shape);
+  shape.layout = layout_for(shape.layout, shape.parameterization, orientation);
+  if (!declaration.faces.empty())
+    shape.layout = with_faces(shape.layout, shape.parameterization, declaration.faces);
+  return shape;
+}
+
+/// Throws when the layout asks for other files or for more pictures than there are.
+void check_pictures(const fs::path& path, const io::FileInfo& file, const MapShape& shape, std::size_t part) {
+  const LayoutKind kind = shape.layout.kind;
+  const std::string name = path.string() + ": ";
+  if (kind == LayoutKind::files && !is_pattern(path)) {
+    const std::vector<std::string> charts = chart_names(shape.parameterization);
+    throw Error(name + shape.text() + " is in several files: put %s in the name, for " + charts[0] + ", " +
+                charts[1] + "…");
+  }
+  if (kind != LayoutKind::files && is_pattern(path)) {
+    throw Error(name + "%s stands for a face's name, but " + shape.text() + " is in one file");
+  }
+  const std::size_t pictures = pictures_of(file, 0).size();
+  const std::size_t needed = kind == LayoutKind::layers ? shape.layout.cells.size() : 1;
+  if (pictures < needed) {
+    throw Error(name + shape.text() + " needs " + std::to_string(needed) + " parts, the file has " +
+                std::to_string(pictures));
+  }
+  if (part >= pictures / needed) {
+    throw Error(name + "has no part " + std::to_string(part) + " (parts are 0 to " +
+                std::to_string(pictures / needed - 1) + ")");
+  }
+}
+
+/// Charts of level 0. Throws when the pictures' size is none of the shape.
+ChartSize finest_chart(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
+                       const MapFileInfo& info) {
+  const MapShape per_picture{info.shape->parameterization, grid_of_picture(info.shape->layout)};
+  const int columns = per_picture.layout.columns, rows = per_picture.layout.rows;
+  const io::PartInfo& part = file.parts[pictures_of(file, 0)[first_picture(info.shape->layout, options)]];
+  const int width = part.width - 2 * info.border * columns, height = part.height - 2 * info.border * rows;
+  if (width < 1 || height < 1) {
+    throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
+                " leaves nothing inside a border of " + std::to_string(info.border));
+  }
+  // Texels that aren't square were asked for, where the file gives the very size of its charts.
+  const std::optional<ChartSize> divided = chart_size_in(per_picture.layout, width, height);
+  if (!options.shape && divided && text_of(*divided) == attribute(file, kChartKey)) return *divided;
+  ChartSize chart;
+  if (size_fits(per_picture, width, height, chart)) return chart;
+  char aspect[32];
+  std::snprintf(aspect, sizeof aspect, "%.4g", info.shape->parameterization.aspect() * columns / rows);
+  throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
+              " does not fit " + info.shape->text() + " (" + info.reason + "), whose width is " + aspect +
+              " times its height" +
+              (columns * rows > 1
+                   ? " in " + std::to_string(columns) + "×" + std::to_string(rows) + " equal cells"
+                   : ""));
+}
+
+/// Charts of the levels that hold the map: as many as the file declares, and as are pictures of charts half
+/// as large as the level before, by either way of rounding. A picture of several charts can have further
+/// levels, down to one texel, which are none of the map.
+std::vector<ChartSize> level_charts(const io::FileInfo& file, const ReadMapOptions& options,
+                                    const MapFileInfo& info, ChartSize finest) {
+  const Layout grid = grid_of_picture(info.shape->layout);
+  const std::size_t first = first_picture(info.shape->layout, options);
+  const std::size_t needed =
+      info.shape->layout.kind == LayoutKind::layers ? info.shape->layout.cells.size() : 1;
+  const auto halved = [](int side, int finest_side, int level) {
+    const int down = std::max(1, finest_side >> level);
+    return side == down || (side == down + 1 && (side - 1) << level < finest_side);
+  };
+  std::vector<ChartSize> charts{finest};
+  if (info.border > 0) return charts;
+  constexpr int kMostLevels = 21;  // of a side of 2^20 texels
+  for (int level = 1; level < std::min(file.levels, kMostLevels); ++level) {
+    const std::vector<std::size_t> pictures = pictures_of(file, level);
+    if (pictures.size() < first + needed) break;
+    const io::PartInfo& part = file.parts[pictures[first]];
+    const std::optional<ChartSize> chart = chart_size_in(grid, part.width, part.height);
+    if (!chart || !halved(chart->width, finest.width, level) || !halved(chart->height, finest.height, level))
+      break;
+    charts.push_back(*chart);
+  }
+  return charts;
+}
+
+}  // namespace
+
+std::string extension_of(const fs::path& path) {
+  std::string extension = path.extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+bool is_texture(const fs::path& path) {
+  return extension_of(path) == "ktx2";
+}
+
+std::vector<std::size_t> pictures_of(const io::FileInfo& file, int level) {
+  std::vector<std::size_t> pictures;
+  for (std::size_t i = 0; i < file.parts.size(); ++i) {
+    if (file.parts[i].level == level) pictures.push_back(i);
+  }
+  return pictures;
+}
+
+std::size_t first_picture(const Layout& layout, const ReadMapOptions& options) {
+  return options.part * (layout.kind == LayoutKind::layers ? layout.cells.size() : 1);
+}
+
+MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options) {
+  MapFileInfo info;
+  info.image = file;
+  info.notes = chain_notes_from(file.attributes);
+  const Declaration declaration = declaration_for(path, file, options);
+  info.reason = declaration.reason;
+  if (options.orientation) {
+    info.orientation = *options.orientation;
+  } else if (const auto declared = matrix_from(attribute(file, kOrientationKey))) {
+    info.orientation = *declared;
+  }
+  if (declaration.shape.empty()) return info;
+  try {
+    info.shape = shape_from(declaration, info.orientation);
+  } catch (const Error& error) {
+    // A damaged declaration names its file; a bad request names itself.
+    if (!options.shape && options.faces.empty()) throw Error(path.string() + ": " + error.what());
+    throw;
+  }
+  check_pictures(path, file, *info.shape, options.part);
+  info.border = options.border;
+  if (!options.shape && options.border == 0) info.border = positive_number(attribute(file, kBorderKey));
+  const ChartSize finest = finest_chart(path, file, options, info);
+  try {
+    check_turns(info.shape->layout, finest);
+  } catch (const Error& error) {
+    throw Error(path.string() + ": " + error.what());
+  }
+  info.levels = level_charts(file, options, info, finest);
+  const auto levels = static_cast<int>(info.levels.size());
+  if (options.level < 0 || options.level >= levels) {
+    throw Error(path.string() + ": has " +
+                (levels == 1 ? "one level" : "levels 0…" + std::to_string(levels - 1)) + ", not " +
+                (levels == 1 ? "level " : "") + std::to_string(options.level));
+  }
+  info.chart = info.levels[static_cast<std::size_t>(options.level)];
+  info.shape = for_chart_size(*info.shape, info.chart);
+  return info;
+}
+
+}  // namespace welkin::map_file

@@ -1,0 +1,317 @@
+#include "welkin/map_file/layout.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "welkin/base/error.h"
+
+namespace welkin {
+namespace {
+
+enum Face { px, nx, py, ny, pz, nz };
+
+/// A cube's face as a picture seen from inside: the native face, mirrored.
+LayoutCell picture_of(int face, int column, int row, int quarter_turns = 0) {
+  return {face, column, row, quarter_turns, true};
+}
+
+std::vector<Layout> cube_layouts() {
+  const auto line = [](int columns, int rows, LayoutKind kind, bool mirrored) {
+    Layout layout{"", kind, columns, rows, {}};
+    for (int face = 0; face < 6; ++face) {
+      layout.cells.push_back({face, columns == 1 ? 0 : face, columns == 1 ? face : 0, 0, mirrored});
+    }
+    return layout;
+  };
+  std::vector<Layout> list;
+  // Front (+Z) in the middle as in a lat-long; +X is a quarter to its left.
+  //   .  +Y  .   .
+  //  +X  +Z  −X  −Z
+  //   .  −Y  .   .
+  list.push_back({"hcross",
+                  LayoutKind::picture,
+                  4,
+                  3,
+                  {picture_of(py, 1, 0), picture_of(px, 0, 1), picture_of(pz, 1, 1), picture_of(nx, 2, 1),
+                   picture_of(nz, 3, 1), picture_of(ny, 1, 2)}});
+  //   .  +Y  .
+  //  +X  +Z  −X
+  //   .  −Y  .
+  //   .  −Z  .     upside down
+  list.push_back({"vcross",
+                  LayoutKind::picture,
+                  3,
+                  4,
+                  {picture_of(py, 1, 0), picture_of(px, 0, 1), picture_of(pz, 1, 1), picture_of(nx, 2, 1),
+                   picture_of(ny, 1, 2), picture_of(nz, 1, 3, 2)}});
+  // The horizontal cross turned a quarter clockwise, its back joined to the top.
+  //    .    left   .    .
+  //  bottom front top  back
+  //    .    right  .    .
+  list.push_back({"flat",
+                  LayoutKind::picture,
+                  4,
+                  3,
+                  {picture_of(px, 1, 0, 1), picture_of(ny, 0, 1, 1), picture_of(pz, 1, 1, 1),
+                   picture_of(py, 2, 1, 1), picture_of(nz, 3, 1, 3), picture_of(nx, 1, 2, 1)}});
+  list.push_back(line(6, 1, LayoutKind::picture, true));
+  list.back().name = "hstrip";
+  list.push_back(line(1, 6, LayoutKind::picture, true));
+  list.back().name = "vstrip";
+  //  +X  −X  +Y
+  //  −Y  +Z  −Z
+  list.push_back({"3x2",
+                  LayoutKind::picture,
+                  3,
+                  2,
+                  {picture_of(px, 0, 0), picture_of(nx, 1, 0), picture_of(py, 2, 0), picture_of(ny, 0, 1),
+                   picture_of(pz, 1, 1), picture_of(nz, 2, 1)}});
+  // Two bands of three joined faces: left front right; bottom back top, these on their side.
+  list.push_back({"bands",
+                  LayoutKind::picture,
+                  3,
+                  2,
+                  {picture_of(px, 0, 0), picture_of(pz, 1, 0), picture_of(nx, 2, 0), picture_of(ny, 0, 1, 3),
+                   picture_of(nz, 1, 1, 1), picture_of(py, 2, 1, 3)}});
+  // The strip of EXR files with `envmap = cube` (ImfEnvmap.h).
+  list.push_back({"openexr",
+                  LayoutKind::picture,
+                  1,
+                  6,
+                  {picture_of(px, 0, 0), picture_of(nx, 0, 1), picture_of(py, 0, 2, 2),
+                   picture_of(ny, 0, 3, 2), picture_of(pz, 0, 4), picture_of(nz, 0, 5)}});
+  list.push_back(line(6, 1, LayoutKind::files, true));
+  list.back().name = "faces";
+  list.push_back(line(6, 1, LayoutKind::layers, false));
+  list.back().name = "layers";
+  return list;
+}
+
+/// Charts that are pictures already: in a grid `columns` wide, in strips, files and layers.
+std::vector<Layout> plain_layouts(int charts, int columns) {
+  const auto grid = [charts](std::string name, LayoutKind kind, int across) {
+    Layout layout{std::move(name), kind, across, (charts + across - 1) / across, {}};
+    for (int chart = 0; chart < charts; ++chart)
+      layout.cells.push_back({chart, chart % across, chart / across, 0, false});
+    return layout;
+  };
+  if (charts == 1) return {grid("", LayoutKind::picture, 1)};
+  std::vector<Layout> list;
+  if (columns != charts) list.push_back(grid("grid", LayoutKind::picture, columns));
+  list.push_back(grid("hstrip", LayoutKind::picture, charts));
+  list.push_back(grid("vstrip", LayoutKind::picture, 1));
+  list.push_back(grid("faces", LayoutKind::files, charts));
+  list.push_back(grid("layers", LayoutKind::layers, charts));
+  return list;
+}
+
+int chart_from_name(const sphere::AnyParameterization& p, std::string name) {
+  if (name.size() == 2 && (name[0] == '+' || name[0] == '-')) {
+    name = {name[0] == '+' ? 'p' : 'n', static_cast<char>(name[1] | 0x20)};
+  }
+  const std::vector<std::string> names = chart_names(p);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw Error(unknown_name("face", name, names));
+  return static_cast<int>(found - names.begin());
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  while (true) {
+    const std::size_t at = text.find(separator);
+    parts.emplace_back(text.substr(0, at));
+    if (at == std::string_view::npos) return parts;
+    text.remove_prefix(at + 1);
+  }
+}
+
+/// Where the texel (x, y) of a cell's picture lies in its chart.
+struct CellMapping {
+  std::ptrdiff_t start = 0, step_x = 0,
+                 step_y = 0;  // values of the chart's view: first texel, and steps of the picture
+
+  CellMapping(const LayoutCell& c, int width, int height, std::ptrdiff_t row, std::ptrdiff_t texel) {
+    // A picture turned clockwise by one quarter shows at (x, y) what was at (y, h − 1 − x).
+    const std::ptrdiff_t right = width - 1, bottom = height - 1;
+    std::ptrdiff_t x = 0, y = 0, xx = 0, xy = 0, yx = 0, yy = 0;  // chart x = x + xx·px + xy·py
+    switch (c.quarter_turns & 3) {
+      case 0:
+        xx = 1, yy = 1;
+        break;
+      case 1:
+        xy = 1, yx = -1, y = bottom;
+        break;
+      case 2:
+        xx = -1, yy = -1, x = right, y = bottom;
+        break;
+      default:
+        xy = -1, yx = 1, x = right;
+        break;
+    }
+    if (c.mirrored) {
+      x = right - x;
+      xx = -xx;
+      xy = -xy;
+    }
+    start = x * texel + y * row;
+    step_x = xx * texel + yx * row;
+    step_y = xy * texel + yy * row;
+  }
+};
+
+}  // namespace
+
+const std::vector<Layout>& layouts_of(const sphere::AnyParameterization& p) {
+  static const std::vector<Layout> cube = cube_layouts();
+  static const std::vector<Layout> one = plain_layouts(1, 1), two = plain_layouts(2, 2),
+                                   eight = plain_layouts(8, 4), twelve = plain_layouts(12, 4);
+  static const std::vector<Layout> openexr_cube = [] {
+    std::vector<Layout> list = cube;
+    std::stable_partition(list.begin(), list.end(),
+                          [](const Layout& layout) { return layout.name == "openexr"; });
+    return list;
+  }();
+  if (p.name() == "openexr-cube") return openexr_cube;
+  switch (p.charts()) {
+    case 1:
+      return one;
+    case 2:
+      return two;
+    case 6:
+      return cube;
+    case 8:
+      return eight;
+    default:
+      assert(p.charts() == 12);
+      return twelve;
+  }
+}
+
+std::vector<std::string> chart_names(const sphere::AnyParameterization& p) {
+  if (p.charts() == 6) return {"px", "nx", "py", "ny", "pz", "nz"};
+  std::vector<std::string> names;
+  for (int i = 0; i < p.charts(); ++i) names.push_back(std::to_string(i));
+  return names;
+}
+
+std::string MapShape::text() const {
+  std::string text = parameterization.spec();
+  if (!layout.name.empty()) text.insert(parameterization.name().size(), ":" + layout.name);
+  return text;
+}
+
+MapShape parse_map_shape(std::string_view text) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const std::string_view head = text.substr(0, comma);
+  const std::size_t colon = head.find(':');
+  std::string spec(head.substr(0, colon));
+  spec += text.substr(comma);
+  auto parameterization = sphere::AnyParameterization::make(spec);
+  const std::vector<Layout>& layouts = layouts_of(parameterization);
+  if (colon == std::string_view::npos) return {parameterization, layouts.front()};
+  const std::string_view wanted = head.substr(colon + 1);
+  std::vector<std::string> names;
+  for (const Layout& layout : layouts) {
+    if (layout.name == wanted) return {parameterization, layout};
+    if (!layout.name.empty()) names.push_back(layout.name);
+  }
+  if (names.empty()) {
+    throw Error(parameterization.name() +
+                " is a single picture: it takes no layout, but ':" + std::string(wanted) + "' was given");
+  }
+  throw Error(unknown_name("layout of " + parameterization.name(), wanted, names));
+}
+
+MapShape for_chart_size(const MapShape& shape, ChartSize size) {
+  return {shape.parameterization.at_size(size.width, size.height), shape.layout};
+}
+
+Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& p) {
+  if (p.charts() != 6 || layout.kind == LayoutKind::layers) return layout;
+  Layout changed = layout;
+  const bool adjoining =
+      layout.name == "hcross" || layout.name == "vcross" || layout.name == "flat" || layout.name == "bands";
+  for (LayoutCell& cell : changed.cells) {
+    cell.mirrored = false;
+    if (adjoining && cell.chart <= nx) cell.chart = px + nx - cell.chart;
+  }
+  return changed;
+}
+
+Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, std::string_view faces) {
+  const std::vector<std::string> parts = split(faces, ',');
+  if (parts.size() != layout.cells.size()) {
+    throw Error("names " + std::to_string(parts.size()) + " faces, but " + p.name() + " has " +
+                std::to_string(layout.cells.size()));
+  }
+  Layout changed = layout;
+  std::sort(changed.cells.begin(), changed.cells.end(), [](const LayoutCell& a, const LayoutCell& b) {
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  });
+  std::vector<bool> seen(layout.cells.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::vector<std::string> words = split(parts[i], ':');
+    LayoutCell& cell = changed.cells[i];
+    cell.chart = chart_from_name(p, words[0]);
+    if (seen[static_cast<std::size_t>(cell.chart)]) throw Error("names '" + words[0] + "' twice");
+    seen[static_cast<std::size_t>(cell.chart)] = true;
+    for (std::size_t k = 1; k < words.size(); ++k) {
+      if (words[k] == "mirror") {
+        // Mirroring a picture that is turned by q is turning the mirrored one by −q.
+        cell.mirrored = !cell.mirrored;
+        cell.quarter_turns = (4 - cell.quarter_turns) & 3;
+      } else if (words[k] == "0" || words[k] == "90" || words[k] == "180" || words[k] == "270") {
+        cell.quarter_turns = (cell.quarter_turns + std::stoi(words[k]) / 90) & 3;
+      } else {
+        throw Error("'" + parts[i] + "': after the face come 90, 180, 270 or mirror, not '" + words[k] + "'");
+      }
+    }
+    if ((cell.quarter_turns & 1) != 0 && p.aspect() != 1)
+      throw Error("only square charts can be turned by 90°");
+  }
+  return changed;
+}
+
+std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, int picture_height) {
+  if (picture_width % layout.columns != 0 || picture_height % layout.rows != 0) return std::nullopt;
+  return ChartSize{picture_width / layout.columns, picture_height / layout.rows};
+}
+
+void check_turns(const Layout& layout, ChartSize size) {
+  if (size.width == size.height) return;
+  for (const LayoutCell& cell : layout.cells) {
+    if ((cell.quarter_turns & 1) == 0) continue;
+    throw Error("faces of " + std::to_string(size.width) + "×" + std::to_string(size.height) +
+                " cannot be turned by 90° in " +
+                (layout.name.empty() ? std::string("a picture") : "the layout " + layout.name) +
+                ": they must be square");
+  }
+}
+
+void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart) {
+  assert((cell.quarter_turns & 1) == 0 ? chart.width == picture.width && chart.height == picture.height
+                                       : chart.width == picture.height && chart.height == picture.width);
+  const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
+  for (int y = 0; y < picture.height; ++y) {
+    const float* from = picture.row(y);
+    float* to = chart.data + map.start + y * map.step_y;
+    for (int x = 0; x < picture.width; ++x, from += picture.channels, to += map.step_x) {
+      std::copy_n(from, picture.channels, to);
+    }
+  }
+}
+
+void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture) {
+  assert((cell.quarter_turns & 1) == 0 ? chart.width == picture.width && chart.height == picture.height
+                                       : chart.width == picture.height && chart.height == picture.width);
+  const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
+  for (int y = 0; y < picture.height; ++y) {
+    const float* from = chart.data + map.start + y * map.step_y;
+    float* to = picture.row(y);
+    for (int x = 0; x < picture.width; ++x, to += picture.channels, from += map.step_x) {
+      std::copy_n(from, picture.channels, to);
+    }
+  }
+}
+
+}  // namespace welkin

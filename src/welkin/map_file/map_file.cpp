@@ -1,0 +1,175 @@
+#include "welkin/map_file/map_file.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "welkin/base/error.h"
+#include "welkin/map/borders.h"
+#include "welkin/map_file/map_file_job.h"
+
+namespace welkin {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace map_file;
+
+/// The channels to read: indices into the part's list. `declared` names those that the map had.
+std::vector<int> choose_channels(const std::string& name, const io::PartInfo& part,
+                                 const std::vector<std::string>& wanted, const std::string& declared = {}) {
+  const auto index_of = [&](const std::string& channel) {
+    const auto found = std::find(part.channels.begin(), part.channels.end(), channel);
+    return found == part.channels.end() ? -1 : static_cast<int>(found - part.channels.begin());
+  };
+  std::vector<int> chosen;
+  for (const std::string& channel : wanted) {
+    const int index = index_of(channel);
+    if (index < 0) throw Error(name + ": " + unknown_name("channel", channel, part.channels));
+    chosen.push_back(index);
+  }
+  if (!chosen.empty()) return chosen;
+  std::string channel;
+  for (std::istringstream names(declared); std::getline(names, channel, ',');) {
+    chosen.push_back(index_of(channel));
+  }
+  if (!chosen.empty() && std::count(chosen.begin(), chosen.end(), -1) == 0 && chosen.size() <= kMostChannels)
+    return chosen;
+  chosen.clear();
+  if (index_of("R") >= 0 && index_of("G") >= 0 && index_of("B") >= 0) {
+    chosen = {index_of("R"), index_of("G"), index_of("B")};
+  } else if (index_of("Y") >= 0) {
+    chosen = {index_of("Y")};
+  } else {
+    for (int i = 0; i < std::min<int>(3, static_cast<int>(part.channels.size())); ++i) chosen.push_back(i);
+    return chosen;
+  }
+  if (index_of("A") >= 0) chosen.push_back(index_of("A"));
+  return chosen;
+}
+
+/// Opens the file, or the first of the files of a pattern.
+std::unique_ptr<io::Reader> open_first(const fs::path& path, const ReadMapOptions& options) {
+  if (!is_pattern(path)) return io::open(path, options.image);
+  // What the charts are called depends on the shape; without one there may be faces of a cube, or numbered
+  // charts.
+  if (options.shape) {
+    return io::open(chart_path(path, chart_names(parse_map_shape(*options.shape).parameterization).front()),
+                    options.image);
+  }
+  const bool numbered = !fs::exists(chart_path(path, "px")) && fs::exists(chart_path(path, "0"));
+  return io::open(chart_path(path, numbered ? "0" : "px"), options.image);
+}
+
+}  // namespace
+
+MapReader::MapReader(const fs::path& path, const ReadMapOptions& options)
+    : path_(path),
+      options_(options),
+      reader_(open_first(path, options)),
+      info_(inspect(path, reader_->info(), options)) {}
+
+void MapReader::set_faces(std::string faces) {
+  options_.faces = std::move(faces);
+  info_ = inspect(path_, reader_->info(), options_);
+}
+
+void MapReader::set_orientation(const Matrix3& orientation) {
+  options_.orientation = orientation;
+  info_ = inspect(path_, reader_->info(), options_);
+}
+
+void MapReader::set_level(int level) {
+  ReadMapOptions changed = options_;
+  changed.level = level;
+  info_ = inspect(path_, reader_->info(), changed);
+  options_ = changed;
+}
+
+LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
+  MapReader reader(path, options);
+  return {reader.read(), reader.info()};
+}
+
+const MapShape& MapReader::shape() const {
+  if (info_.shape) return *info_.shape;
+  const io::PartInfo& part = info_.image.parts.at(std::min(options_.part, info_.image.parts.size() - 1));
+  throw Error(path_.string() + ": cannot tell which parameterization " + std::to_string(part.width) + "×" +
+              std::to_string(part.height) +
+              " is; name it with --from (octahedral, angular, sphere, fisheye-equidistant…)");
+}
+
+Map MapReader::read() {
+  const std::string name = path_.string();
+  const MapFileInfo& info = info_;
+  const ReadMapOptions& options = options_;
+  const Layout& layout = shape().layout;
+  const auto& p = shape().parameterization;
+  const std::vector<std::size_t> pictures = pictures_of(info.image, options.level);
+  const std::size_t first = first_picture(layout, options);
+  const io::PartInfo& part = info.image.parts[pictures[first]];
+  const std::vector<int> channels =
+      choose_channels(name, part, options.channels, attribute(info.image, kChannelsKey));
+  const int count = static_cast<int>(channels.size());
+  Map map(p, info.chart.width, info.chart.height, count);
+  map.orientation = info.orientation;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    map.channel_names[i] = part.channels[static_cast<std::size_t>(channels[i])];
+  }
+  const int border = info.border;
+  const auto plain = [border](const LayoutCell& cell) {
+    return !cell.mirrored && cell.quarter_turns == 0 && border == 0;
+  };
+  const auto inner = [border](ImageView<const float> picture) {
+    return picture.part(border, border, picture.width - 2 * border, picture.height - 2 * border);
+  };
+  /// One picture holds one chart: straight into the map where it is neither turned nor mirrored.
+  const auto read_chart = [&](io::Reader& from, std::size_t index, const LayoutCell& cell,
+                              const std::string& file) {
+    const io::PartInfo& other = from.info().parts.at(index);
+    if (other.width - 2 * border != info.chart.width || other.height - 2 * border != info.chart.height) {
+      throw Error(file + ": is " + std::to_string(other.width) + "×" + std::to_string(other.height) +
+                  ", but the first face is " + std::to_string(info.chart.width) + "×" +
+                  std::to_string(info.chart.height));
+    }
+    const std::vector<int> own = choose_channels(file, other, map.channel_names);
+    if (plain(cell)) return from.read(index, own, map.level.chart(cell.chart));
+    Image picture(other.width, other.height, count);
+    from.read(index, own, picture.view());
+    copy_from_cell(cell, inner(picture.view()), map.level.chart(cell.chart));
+  };
+  switch (layout.kind) {
+    case LayoutKind::files: {
+      const std::vector<std::string> names = chart_names(p);
+      for (std::size_t i = 0; i < layout.cells.size(); ++i) {
+        const fs::path file = chart_path(path_, names[i]);
+        const auto reader = io::open(file, options.image);
+        const std::vector<std::size_t> own = pictures_of(reader->info(), options.level);
+        if (options.part >= own.size())
+          throw Error(file.string() + ": has fewer pictures than the first face");
+        read_chart(*reader, own[options.part], layout.cells[i], file.string());
+      }
+      break;
+    }
+    case LayoutKind::layers:
+      for (std::size_t i = 0; i < layout.cells.size(); ++i) {
+        read_chart(*reader_, pictures[first + i], layout.cells[i], name);
+      }
+      break;
+    case LayoutKind::picture:
+      if (layout.cells.size() == 1 && plain(layout.cells[0])) {
+        reader_->read(pictures[first], channels, map.level.chart(0));
+        break;
+      }
+      {
+        Image picture(part.width, part.height, count);
+        reader_->read(pictures[first], channels, picture.view());
+        for (const LayoutCell& cell : layout.cells) {
+          copy_from_cell(cell, inner(cell_of<const float>(layout, cell, picture.view())),
+                         map.level.chart(cell.chart));
+        }
+      }
+  }
+  fill_borders(map);
+  return map;
+}
+
+}  // namespace welkin

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "welkin/io/image_file.h"
+#include "welkin/map/chain.h"
+#include "welkin/map/map.h"
+#include "welkin/map_file/layout.h"
+
+/// Image files ↔ maps: which parameterization a picture has, and where its charts lie in it.
+namespace welkin {
+
+struct ReadMapOptions {
+  std::optional<std::string>
+      shape;  ///< NAME[:LAYOUT][,PARAMETER=VALUE]…; without it, what the file declares, else a guess
+  std::string faces;  ///< see with_faces; empty for the layout's own order
+  /// Which channels become the map's: names of the file. Empty: R G B (A), or Y (A), or the first three.
+  std::vector<std::string> channels;
+  /// How the file's directions relate to the native world (convention.h); without it, what the file declares,
+  /// else native.
+  std::optional<Matrix3> orientation;
+  int border = 0;  ///< texels of safety border around every chart in the file, besides what the file declares
+  std::size_t part = 0;  ///< of a file with several pictures; where these are the charts, of several sets
+  int level = 0;         ///< of a file with levels; 0 is the finest
+  io::ReadOptions image;
+};
+
+/// What is known of a map's file before its pixels are read.
+struct MapFileInfo {
+  io::FileInfo image;             ///< of the first file where there are several
+  std::optional<MapShape> shape;  ///< none when nothing declares it and the size suggests nothing
+  std::string reason;             ///< why this shape: `declared by the file`, `guessed from 2:1`…
+  ChartSize chart;                ///< of the level that is read; meaningful when there is a shape
+  std::vector<ChartSize> levels;  ///< charts of every level; one entry for a file without levels, none
+                                  ///< without a shape
+  ChainNotes notes;               ///< what the file says of its levels
+  int border = 0;                 ///< safety border around every chart in the file, texels
+  Matrix3 orientation;
+};
+
+/// A map's file, opened once: it may be a pipe. `path` contains `%s` when the charts are in files of their
+/// own; the first of these is opened, the others when they are read. Members throw Error: files that can't be
+/// read, shapes that don't exist, sizes that don't fit the shape.
+class MapReader {
+ public:
+  explicit MapReader(const std::filesystem::path& path, const ReadMapOptions& options = {});
+
+  const MapFileInfo& info() const { return info_; }
+
+  /// The shape. Throws where there is none: the message says how to name it.
+  const MapShape& shape() const;
+
+  /// Changes these options, now that the shape is known.
+  void set_faces(std::string faces);
+  void set_orientation(const Matrix3& orientation);
+  void set_level(int level);
+
+  /// The map, its borders filled. Throws also when the shape is unknown. A picture of one chart is decoded
+  /// straight into the map; of several, the picture is in memory besides the map while this lasts.
+  Map read();
+
+ private:
+  std::filesystem::path path_;
+  ReadMapOptions options_;
+  std::unique_ptr<io::Reader> reader_;
+  MapFileInfo info_;
+};
+
+struct LoadedMap {
+  Map map;
+  MapFileInfo info;
+};
+
+/// Opens and reads.
+LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
+
+/// Whether a file of this name can hold levels: EXR and KTX2 can.
+bool holds_levels(const std::filesystem::path& path);
+
+/// The layout that a file of this name gets when none is named: charts are faces or layers in a texture
+/// (KTX2); cubes are strips in a picture with levels, whose halves are then pictures of halved faces; else it
+/// is the first of layouts_of.
+const Layout& default_layout(const sphere::AnyParameterization& parameterization,
+                             const std::filesystem::path& path, int levels = 1);
+
+/// parse_map_shape for a file to write: without a layout in the text, the default_layout.
+MapShape parse_map_shape_for(const std::filesystem::path& path, std::string_view text, int levels = 1);
+
+/// For a map that goes from its file to another with its shape, which must be known: the layout stays too,
+/// but is the default_layout where one of the files is a texture and the other isn't.
+MapShape shape_for_copy(const MapFileInfo& from, const std::filesystem::path& to, int levels = 1);
+
+/// Throws Error, naming the path, when it has a `%s` and the layout is of one file, or the other way round.
+void check_face_pattern(const std::filesystem::path& path, const Layout& layout);
+
+/// The files that a map is written to: one, or one for each chart where `path` has a `%s`.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& path,
+                                            const sphere::AnyParameterization& parameterization);
+
+struct WriteMapOptions {
+  io::WriteOptions image;
+  std::string faces;  ///< see with_faces
+  int border = 0;     ///< texels of safety border to write around every chart (safety_border.h); the map's
+                      ///< borders must be filled
+};
+
+/// Writes the charts in the layout. The parameterization, layout, faces and orientation go into the file's
+/// text metadata where the format has any, and reading it restores them. Cells that no chart fills are 0.
+/// In a KTX2, `layers` of a cube are the faces of a cube texture, and of others the layers of an array.
+io::WriteReport write_map(const std::filesystem::path& path, const Map& map, const Layout& layout,
+                          const WriteMapOptions& options = {});
+
+}  // namespace welkin

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "welkin/base/number_text.h"
+#include "welkin/map_file/layout.h"
+#include "welkin/map_file/map_file.h"
+
+/// What reading and writing map files share. Internal to these.
+namespace welkin::map_file {
+
+// Text metadata of a map's file.
+inline constexpr const char* kShapeKey = "welkin.parameterization";
+inline constexpr const char* kFacesKey = "welkin.faces";
+inline constexpr const char* kChartKey = "welkin.chart";
+inline constexpr const char* kOrientationKey = "welkin.orientation";
+inline constexpr const char* kBorderKey = "welkin.border";
+inline constexpr const char* kChannelsKey = "welkin.channels";  // where the format may add others
+
+/// The file of one chart: `%s` replaced by the chart's name.
+inline std::filesystem::path chart_path(const std::filesystem::path& pattern, const std::string& chart) {
+  std::string text = pattern.string();
+  text.replace(text.find("%s"), 2, chart);
+  return text;
+}
+
+inline bool is_pattern(const std::filesystem::path& path) {
+  return path.string().find("%s") != std::string::npos;
+}
+
+inline std::string text_of(const Matrix3& m) {
+  std::string text;
+  for (const auto& row : m.rows) {
+    for (double value : row) {
+      text += (text.empty() ? "" : " ") + number_text(value);
+    }
+  }
+  return text;
+}
+
+inline std::string text_of(ChartSize size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+inline Layout layout_for(const Layout& layout, const sphere::AnyParameterization& p,
+                         const Matrix3& orientation) {
+  return determinant(orientation) < 0 ? for_reflected_world(layout, p) : layout;
+}
+
+/// The file's text metadata of that key, or nothing.
+inline std::string attribute(const io::FileInfo& file, const char* key) {
+  const auto found = file.attributes.find(key);
+  return found == file.attributes.end() ? std::string() : found->second;
+}
+
+/// The name's extension in small letters, without the dot.
+std::string extension_of(const std::filesystem::path& path);
+
+/// Whether a file of this name is a texture, whose charts are faces or layers unless it's asked otherwise.
+bool is_texture(const std::filesystem::path& path);
+
+/// The pictures of a level: indices into the file's parts.
+std::vector<std::size_t> pictures_of(const io::FileInfo& file, int level);
+
+/// Where among the pictures of a level those of the map begin.
+std::size_t first_picture(const Layout& layout, const ReadMapOptions& options);
+
+/// What the file of `path`, of which `file` is known, holds.
+MapFileInfo inspect(const std::filesystem::path& path, const io::FileInfo& file,
+                    const ReadMapOptions& options);
+
+/// Writes maps as the levels of one file, as check_chain lets them be.
+io::WriteReport write_levels(const std::filesystem::path& path, std::span<const Map* const> levels,
+                             const Layout& layout, const WriteMapOptions& options);
+
+}  // namespace welkin::map_file

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "welkin/math/vec.h"
+
+namespace welkin {
+
+inline constexpr double kDegree = kPi / 180;
+
+/// The sun's mean angular diameter seen from Earth, degrees.
+inline constexpr double kSunDiameter = 0.5331;
+
+/// Unit direction at an azimuth and elevation in degrees (SynthOptions has the convention).
+inline Vec3d direction_at(double azimuth, double elevation) {
+  const double level = cos(elevation * kDegree);
+  return {level * sin(azimuth * kDegree), sin(elevation * kDegree), level * cos(azimuth * kDegree)};
+}
+
+/// Angle between two directions, radians; precise when small.
+inline double angle_between(const Vec3d& a, const Vec3d& b) {
+  return atan2(length(cross(a, b)), dot(a, b));
+}
+
+/// 0 up to `from`, 1 beyond `to`, smooth between: 3t² − 2t³.
+inline double smooth_step(double from, double to, double x) {
+  const double t = clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+}  // namespace welkin

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+namespace welkin {
+
+/// Nodes and weights of a quadrature on [−1, 1].
+struct QuadratureRule {
+  std::vector<double> nodes, weights;
+};
+
+/// Gauss–Legendre: exact for polynomials of degree 2·count − 1.
+QuadratureRule gauss_legendre(int count);
+
+}  // namespace welkin

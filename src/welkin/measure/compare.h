@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "welkin/base/parallel.h"
+#include "welkin/filter/resample.h"
+#include "welkin/map/map.h"
+
+namespace welkin {
+
+struct CompareOptions {
+  /// How the coarser map is read between its texels; `automatic` counts as `bicubic`. Not used for maps of
+  /// one shape.
+  Filter filter = Filter::bilinear;
+  /// What PSNR is relative to; 0: 1 when the reference's maximum is at most 1, else that maximum.
+  double peak = 0;
+  /// Texels around the heat map, which is half as high.
+  int heat_width = 1024;
+  Monitor monitor = {};
+};
+
+/// The error of b against the reference a, in one channel or in all; every mean is weighted by solid angle.
+struct ErrorMeasures {
+  std::string name;
+  double mean_a = 0, mean_b = 0;
+  double energy_ratio = 1;   ///< mean_b / mean_a; 1 when both are 0
+  double rms_a = 0;          ///< root of the mean of a²
+  double rmse = 0;           ///< root of the mean of (b − a)²
+  double relative_rmse = 0;  ///< rmse / rms_a; 0 when rmse is 0
+  double mean_absolute = 0;
+  double maximum_absolute = 0;
+  Vec3d maximum_absolute_direction{0, 0, 1};  ///< in the world
+  /// The largest |b − a| / |a| of a texel, where |a| counts as at least kRelativeFloor·rms_a.
+  double maximum_relative = 0;
+  Vec3d maximum_relative_direction{0, 0, 1};
+  double psnr = 0;  ///< 20 log10(peak / rmse), dB; infinite when rmse is 0
+};
+inline constexpr double kRelativeFloor = 1e-3;
+
+struct Comparison {
+  /// Channels that both maps have, by name; where no name agrees and both have as many, by position.
+  std::vector<ErrorMeasures> channels;
+  /// Over these channels except alpha (unless there is no other): squares and absolutes are averaged,
+  /// `maximum_absolute` is the largest, `maximum_relative` is of the root mean square over a texel's
+  /// channels.
+  ErrorMeasures all;
+  double peak = 1;              ///< that PSNR is relative to
+  bool texel_by_texel = false;  ///< both have one shape, and no texel was interpolated
+  std::uint64_t texels = 0;     ///< compared
+  double solid_angle = 0;       ///< compared, sr
+  std::uint64_t skipped = 0;    ///< not compared because a or b is NaN or infinite there
+};
+
+/// Compares b with the reference a, over the sphere. Goes through the texels of the map that has more of
+/// them, of `a` when both have as many, and looks up the other at their centres; its borders must be filled.
+/// Where one of them shows nothing, nothing is compared. Maps of one parameterization, size and orientation
+/// are compared texel by texel, without interpolation. Places are exact to 1e-6 of a chart's side.
+///
+/// `heat`, if given, becomes a lat-long map (RGB, linear sRGB, no orientation) of the relative error: root
+/// mean square over the channels of b − a by that of a, with the floor of maximum_relative, averaged over
+/// each new texel. color_ramp over its logarithm from kHeatLowest to kHeatHighest; neutral_color where
+/// nothing was compared.
+///
+/// Throws Error when the maps have no channels in common or options are out of range, and Cancelled.
+Comparison compare(const Map& a, const Map& b, const CompareOptions& options = {}, Map* heat = nullptr);
+inline constexpr double kHeatLowest = 1e-5;
+inline constexpr double kHeatHighest = 1;
+
+}  // namespace welkin

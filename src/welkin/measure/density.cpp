@@ -1,0 +1,170 @@
+#include "welkin/measure/density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "welkin/base/error.h"
+#include "welkin/map/map.h"
+
+namespace welkin {
+namespace {
+
+using sphere::AnyParameterization;
+
+/// Steps of the grid over a chart that finds the neighbourhood of the extremes.
+constexpr int kSteps = 128;
+
+struct Extreme {
+  double density;
+  int chart = 0;
+  double u = 0.5, v = 0.5;
+};
+
+class LimitSearch {
+ public:
+  explicit LimitSearch(const AnyParameterization& p) : p_(p) {}
+
+  DensityLimits run() {
+    double area = 0;
+    for (int chart = 0; chart < p_.charts(); ++chart) {
+      const bool has_rim = scan(chart);
+      area += has_rim ? valid_area(chart) : 1;
+    }
+    refine(lowest_);
+    refine(highest_);
+    return {lowest_.density, highest_.density, area};
+  }
+
+ private:
+  void take(int chart, double u, double v) {
+    if (!p_.valid(chart, u, v)) return;
+    const double density = p_.solid_angle_density(chart, u, v);
+    if (density < lowest_.density) lowest_ = {density, chart, u, v};
+    if (density > highest_.density) highest_ = {density, chart, u, v};
+  }
+
+  /// The last valid place on the way from a valid place to one that isn't.
+  template <class Place>
+  static double rim(double inside, double outside, const Place& is_valid) {
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      (is_valid(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  }
+
+  /// Calls body(rim) for every change between valid and not along the line t ∈ [0, 1].
+  template <class Place, class Body>
+  static void for_each_rim(const Place& is_valid, const Body& body) {
+    for (int i = 0; i < kSteps; ++i) {
+      const double from = static_cast<double>(i) / kSteps, to = (i + 1.0) / kSteps;
+      if (is_valid(from) != is_valid(to)) {
+        body(is_valid(from) ? rim(from, to, is_valid) : rim(to, from, is_valid), is_valid(from));
+      }
+    }
+  }
+
+  /// The grid with its edges, and the rim where it crosses the grid's lines. Returns whether it does.
+  bool scan(int chart) {
+    bool has_rim = false;
+    const auto take_rim = [&](double u, double v) {
+      take(chart, u, v);
+      has_rim = true;
+    };
+    for (int j = 0; j <= kSteps; ++j) {
+      const double line = static_cast<double>(j) / kSteps;
+      for (int i = 0; i <= kSteps; ++i) take(chart, static_cast<double>(i) / kSteps, line);
+      for_each_rim([&](double u) { return p_.valid(chart, u, line); },
+                   [&](double u, bool) { take_rim(u, line); });
+      for_each_rim([&](double v) { return p_.valid(chart, line, v); },
+                   [&](double v, bool) { take_rim(line, v); });
+    }
+    return has_rim;
+  }
+
+  /// ∫ of the valid length of rows. With v = ½ − ½ cos πs the chord of a disc is a smooth periodic function
+  /// of s, which the midpoint rule integrates to many digits.
+  double valid_area(int chart) const {
+    constexpr int kRows = 4096;
+    double area = 0;
+    for (int j = 0; j < kRows; ++j) {
+      const double s = (j + 0.5) / kRows;
+      const double v = 0.5 - 0.5 * std::cos(kPi * s);
+      const auto is_valid = [&](double u) { return p_.valid(chart, u, v); };
+      double chord = is_valid(1) ? 1 : 0;
+      for_each_rim(is_valid, [&](double u, bool leaves) { chord += leaves ? u : -u; });
+      area += chord * 0.5 * kPi * std::sin(kPi * s) / kRows;
+    }
+    return area;
+  }
+
+  /// Looks closer and closer around an extreme; what is found on the way replaces it.
+  void refine(const Extreme& extreme) {
+    constexpr int kRounds = 48, kSide = 4;
+    double reach = 1.0 / kSteps;
+    for (int round = 0; round < kRounds; ++round, reach *= 0.5) {
+      const Extreme centre = extreme;
+      for (int j = -kSide; j <= kSide; ++j) {
+        for (int i = -kSide; i <= kSide; ++i) {
+          take(centre.chart, std::clamp(centre.u + reach * i / kSide, 0.0, 1.0),
+               std::clamp(centre.v + reach * j / kSide, 0.0, 1.0));
+        }
+      }
+    }
+  }
+
+  const AnyParameterization& p_;
+  Extreme lowest_{std::numeric_limits<double>::infinity()};
+  Extreme highest_{-std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+DensityLimits density_limits(const AnyParameterization& parameterization) {
+  return LimitSearch(parameterization).run();
+}
+
+DensityReport density_of(const AnyParameterization& parameterization, int size) {
+  constexpr int kMostTexels = 16384;
+  if (size < 2 || size > kMostTexels) {
+    throw Error("the density of charts can be shown for 2 to " + std::to_string(kMostTexels) +
+                " texels across, not " + std::to_string(size));
+  }
+  DensityReport report;
+  report.width = size;
+  report.height = std::max(1, static_cast<int>(std::lround(size / parameterization.aspect())));
+
+  // At texel centres.
+  std::vector<float> row(static_cast<std::size_t>(size));
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0, texels = 0;
+  for (int chart = 0; chart < parameterization.charts(); ++chart) {
+    for (int y = 0; y < report.height; ++y) {
+      texel_solid_angles(parameterization, size, report.height, chart, y, row.data());
+      for (const float value : row) {
+        if (!(value > 0)) continue;
+        lowest = std::min(lowest, static_cast<double>(value));
+        highest = std::max(highest, static_cast<double>(value));
+        ++texels;
+      }
+    }
+  }
+  report.average = parameterization.coverage() / texels;
+  report.minimum = lowest / report.average;
+  report.maximum = highest / report.average;
+  report.ratio = highest / lowest;
+
+  // At infinite resolution.
+  const DensityLimits limits = density_limits(parameterization);
+  const double average_density = parameterization.coverage() / limits.valid_area;
+  report.limit_minimum = limits.minimum / average_density;
+  report.limit_maximum = limits.maximum / average_density;
+  report.unbounded = !(limits.maximum <= kUnboundedRatio * limits.minimum);
+  report.limit_ratio =
+      report.unbounded ? std::numeric_limits<double>::infinity() : limits.maximum / limits.minimum;
+  return report;
+}
+
+}  // namespace welkin
