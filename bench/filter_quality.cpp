@@ -6,6 +6,7 @@
 
 #include "harness.h"
 #include "pictures.h"
+#include "welkin/base/parallel.h"
 #include "welkin/filter/resample.h"
 
 namespace {

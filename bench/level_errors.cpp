@@ -7,11 +7,12 @@
 #include <string>
 
 #include "lighting.h"
+#include "welkin/base/error.h"
 #include "welkin/map_file/map_file.h"
 
 int main(int argc, char** argv) try {
   using namespace welkin;
-  if (argc < 4) throw Error("level_errors SOURCE LOBE FILE [LEVEL [SHAPE]]");
+  if (argc < 4) throw Error(ErrorKind::bad_request, "level_errors SOURCE LOBE FILE [LEVEL [SHAPE]]");
   const Map source = read_map(argv[1]).map;
   const lobe::AnyLobe lobe = lobe::AnyLobe::make(argv[2]);
   ReadMapOptions options;

@@ -18,7 +18,7 @@
 
 int main(int argc, char** argv) try {
   using namespace welkin;
-  if (argc != 3) throw Error("make_picture OUT WIDTH");
+  if (argc != 3) throw Error(ErrorKind::bad_request, "make_picture OUT WIDTH");
   const std::filesystem::path path = argv[1];
   const int width = std::stoi(argv[2]);
   const bool is_tiff = path.extension() == ".tif", is_exr = path.extension() == ".exr";

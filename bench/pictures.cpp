@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "harness.h"
+#include "welkin/base/parallel.h"
 #include "welkin/filter/resample.h"
 #include "welkin/map/borders.h"
 #include "welkin/map_file/map_file.h"

@@ -9,6 +9,7 @@
 
 #include "harness.h"
 #include "lighting.h"
+#include "welkin/base/parallel.h"
 
 namespace {
 

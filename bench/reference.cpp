@@ -9,13 +9,15 @@
 #include <exception>
 #include <string>
 
+#include "welkin/base/error.h"
 #include "welkin/filter/resample_reference.h"
 #include "welkin/map_file/layout.h"
 #include "welkin/map_file/map_file.h"
 
 int main(int argc, char** argv) try {
   using namespace welkin;
-  if (argc < 4) throw Error("reference IN OUT FACE [bilinear | SAMPLES] [native | openexr]");
+  if (argc < 4)
+    throw Error(ErrorKind::bad_request, "reference IN OUT FACE [bilinear | SAMPLES] [native | openexr]");
   const int face = std::stoi(argv[3]);
   const std::string manner = argc > 4 ? argv[4] : "bilinear", world = argc > 5 ? argv[5] : "native";
   const std::string prefix = world == "openexr" ? "openexr-" : "";

@@ -7,6 +7,7 @@
 
 #include "harness.h"
 #include "pictures.h"
+#include "welkin/base/parallel.h"
 #include "welkin/filter/fetch.h"
 #include "welkin/filter/resample.h"
 

@@ -85,7 +85,7 @@ void BakeLevels::parse(const std::string& out, const WriteFlags& write) {
     const lobe::RoughnessCurve curve = parse_option("--roughness", [&] {
       return lobe::RoughnessCurve::from_name(roughness.empty() ? "linear" : roughness);
     });
-    const int own = curve.listed_levels() > 0 ? curve.listed_levels() : most_levels(finest);
+    const int own = curve.listed_levels() > 0 ? curve.listed_levels() : max_levels(finest);
     levels = parse_option("--roughness",
                           [&] { return roughness_levels(lobe, curve, finest, count.value_or(own)); });
     if (level0 == "source") levels.front().lobe = lobe::AnyLobe::make("ggx,roughness=0");

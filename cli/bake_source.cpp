@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "welkin/base/error.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
 #include "welkin/prefilter/source_faults.h"
@@ -31,12 +32,14 @@ Map without_alpha(Map map) {
 void check_source(const Map& source, const std::string& in) {
   const SourceFaults faults = faults_of(source);
   if (faults.not_finite > 0) {
-    throw Error(fmt::format("{}: {} texels have NaN or infinite values; --sanitize replaces them", in,
-                            faults.not_finite));
+    throw Error(
+        ErrorKind::bad_value, in,
+        fmt::format("{} texels have NaN or infinite values; --sanitize replaces them", faults.not_finite));
   }
   if (faults.excessive > 0) {
-    throw Error(fmt::format("{}: {} texels have values of over {:g}, too large to filter", in,
-                            faults.excessive, kMostRadiance));
+    throw Error(ErrorKind::bad_value, in,
+                fmt::format("{} texels have values of over {:g}, too large to filter", faults.excessive,
+                            kMostRadiance));
   }
   if (faults.negative > 0) {
     tell(fmt::format(

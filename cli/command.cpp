@@ -157,6 +157,18 @@ ReadMapOptions ReadFlags::parse() const {
 }
 
 MapReader ReadFlags::open(const std::string& path) const {
+  MapReader reader = open_unknown(path);
+  if (reader.info().shape) return reader;
+  try {
+    reader.shape();
+  } catch (const Error& error) {
+    throw Error(error.kind(), error.file(),
+                error.cause() + "; name it with --from (octahedral, angular, sphere, fisheye-equidistant…)");
+  }
+  return reader;
+}
+
+MapReader ReadFlags::open_unknown(const std::string& path) const {
   ReadMapOptions options = parse();
   options.faces.clear();
   MapReader reader(path, options);
@@ -220,7 +232,7 @@ void check_output(const std::string& path, const MapShape& shape, const WriteFla
     parse_option("--to-faces", [&] { return with_faces(layout, shape.parameterization, flags.faces); });
   }
   try {
-    io::check_extension(path);
+    io::capabilities_for(path);
   } catch (const Error& error) {
     throw UsageError(path + ": " + error.what());
   }
@@ -233,7 +245,7 @@ void check_output(const std::string& path, const MapShape& shape, const WriteFla
     try {
       const io::OutputFile unwritten(file);
     } catch (const Error& error) {
-      throw Error(file.string() + ": " + error.what());
+      throw in_file(file.string(), error);
     }
   }
 }

@@ -21,7 +21,7 @@ namespace welkin::cli {
 /// A request that makes no sense, found before any work: exit status 2.
 class UsageError : public Error {
  public:
-  using Error::Error;
+  explicit UsageError(const std::string& cause) : Error(ErrorKind::bad_request, cause) {}
 };
 
 /// parse(), with any Error it throws turned into a UsageError that names the option.
@@ -75,6 +75,8 @@ struct ReadFlags {
   /// The file opened, with the faces and the convention applied to the file's own parameterization, at the
   /// level.
   MapReader open(const std::string& path) const;
+  /// The same, also where it is unknown which parameterization the file has.
+  MapReader open_unknown(const std::string& path) const;
   LoadedMap read(const std::string& path) const;
 };
 

@@ -50,7 +50,6 @@ void Convert::run() const {
   MapReader reader = read.open(in);
   const MapFileInfo& info = reader.info();
   const int first = read.level.value_or(0);
-  reader.shape();  // throws when it is unknown
   const int levels = levels_for(info);
   shape = to.empty() ? shape_for_copy(info, out, levels) : parse_map_shape_for(out, to, levels);
   if (!read.level && levels < levels_of(info)) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "welkin/base/error.h"
 #include "welkin/measure/compare.h"
 
 namespace welkin::cli {
@@ -76,8 +77,8 @@ void add_json(ordered_json& report, const Comparison& result) {
 
 void Diff::check_error(const Comparison& result, const std::string& where) const {
   if (fail_above < 0 || result.all.relative_rmse <= fail_above) return;
-  throw Error(fmt::format("{} and {} differ{}: relative RMSE {:.6g} is above {:g}", a, b, where,
-                          result.all.relative_rmse, fail_above));
+  throw Error(ErrorKind::mismatch, fmt::format("{} and {} differ{}: relative RMSE {:.6g} is above {:g}", a, b,
+                                               where, result.all.relative_rmse, fail_above));
 }
 
 void Diff::compare_maps(const Map& reference, const Map& other, const CompareOptions& options) const {

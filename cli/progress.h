@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "welkin/base/parallel.h"
+#include "welkin/base/monitor.h"
 
 namespace welkin::cli {
 
-/// Prints on stderr. A stderr that is closed or full is nobody's concern.
+/// Prints on stderr. Errors of writing there are ignored.
 void tell(const std::string& text);
 
 enum class ProgressMode { automatic, always, never };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <vector>
 
 namespace welkin {
 namespace {
@@ -23,6 +24,48 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::string_view name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::not_found:
+      return "not found";
+    case ErrorKind::denied:
+      return "denied";
+    case ErrorKind::system:
+      return "system";
+    case ErrorKind::damaged:
+      return "damaged";
+    case ErrorKind::unsupported:
+      return "unsupported";
+    case ErrorKind::mismatch:
+      return "mismatch";
+    case ErrorKind::too_large:
+      return "too large";
+    case ErrorKind::bad_value:
+      return "bad value";
+    case ErrorKind::bad_request:
+      return "bad request";
+  }
+  return "?";
+}
+
+Error::Error(ErrorKind kind, const std::string& cause) : std::runtime_error(cause), kind_(kind) {}
+
+Error::Error(ErrorKind kind, const std::string& file, const std::string& cause)
+    : std::runtime_error(file + ": " + cause), kind_(kind), file_(file) {}
+
+std::string Error::cause() const {
+  const std::string whole = what();
+  return file_.empty() ? whole : whole.substr(file_.size() + 2);
+}
+
+// Here, so that the library holds the classes' type information.
+Error::~Error() = default;
+Cancelled::~Cancelled() = default;
+
+Error in_file(const std::string& file, const Error& error) {
+  return Error(error.kind(), file, error.what());
+}
 
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string> known) {
   std::string message("unknown ");

@@ -4,20 +4,11 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
-#include <functional>
 
 #include "welkin/base/error.h"
+#include "welkin/base/monitor.h"
 
 namespace welkin {
-
-/// How work tells how far it is, and can be stopped. Default: silent and never cancelled. Called from any
-/// thread.
-struct Monitor {
-  /// Told how much of the work is done, 0…1.
-  std::function<void(double fraction)> progress;
-  /// Asked now and then; true makes the work throw Cancelled before its next piece, a band of rows.
-  std::function<bool()> cancelled;
-};
 
 /// For a piece of the work: its 0…1 is from…to of the whole. Refers to `whole`, which must outlive it.
 inline Monitor part_of(const Monitor& whole, double from, double to) {

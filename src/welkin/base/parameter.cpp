@@ -10,9 +10,10 @@ namespace welkin {
 namespace {
 
 [[noreturn]] void refuse(std::string_view owner, const Parameter& parameter, std::string_view text) {
-  throw Error(std::string(owner) + ": " + parameter.name + "=" + std::string(text) + " is not a number in " +
-              number_text(parameter.lowest) + "…" + number_text(parameter.highest) + " (" +
-              parameter.description + ")");
+  throw Error(ErrorKind::bad_request, std::string(owner) + ": " + parameter.name + "=" + std::string(text) +
+                                          " is not a number in " + number_text(parameter.lowest) + "…" +
+                                          number_text(parameter.highest) + " (" + parameter.description +
+                                          ")");
 }
 
 }  // namespace
@@ -25,12 +26,14 @@ Parameter parse_parameter(std::string_view owner, const std::vector<Parameter>& 
                           std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   const std::string name(assignment.substr(0, equals)), who(owner);
-  if (known.empty()) throw Error(who + " takes no parameters, but '" + name + "' was given");
+  if (known.empty())
+    throw Error(ErrorKind::bad_request, who + " takes no parameters, but '" + name + "' was given");
   std::vector<std::string> names;
   for (const Parameter& each : known) {
     names.push_back(each.name);
     if (each.name != name) continue;
-    if (equals == std::string_view::npos) throw Error(who + ": write " + name + "=NUMBER");
+    if (equals == std::string_view::npos)
+      throw Error(ErrorKind::bad_request, who + ": write " + name + "=NUMBER");
     const std::string text(assignment.substr(equals + 1));
     const std::optional<double> value =
         text == "inf" ? std::numeric_limits<double>::infinity() : parse_number(text);
@@ -40,7 +43,7 @@ Parameter parse_parameter(std::string_view owner, const std::vector<Parameter>& 
     parameter.value = *value;
     return parameter;
   }
-  throw Error(unknown_name("parameter of " + who, name, names));
+  throw Error(ErrorKind::bad_request, unknown_name("parameter of " + who, name, names));
 }
 
 }  // namespace welkin

@@ -24,7 +24,7 @@ Filter filter_from_name(std::string_view name) {
     if (each == name) return filter;
     names.emplace_back(each);
   }
-  throw Error(unknown_name("filter", name, names));
+  throw Error(ErrorKind::bad_request, unknown_name("filter", name, names));
 }
 
 std::string_view name_of(Filter filter) {

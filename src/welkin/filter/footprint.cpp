@@ -162,10 +162,10 @@ struct Planner {
       const double part = static_cast<double>(spread(static_cast<float>(texels)));
       return std::min(part * texels / std::exp2(tile.level), 1e4);
     };
-    const int most_levels = 20;
+    const int max_levels = 20;
     tile.level =
         static_cast<int>(clamp(std::floor(std::log2(narrowest / kTexelsAcross + 1e-300)), 0.0, 20.0));
-    while (tile.level < most_levels && averaged(right.highest) * averaged(down.highest) > kMostTexels)
+    while (tile.level < max_levels && averaged(right.highest) * averaged(down.highest) > kMostTexels)
       ++tile.level;
     const float fewest = std::min(*std::min_element(tile.texels_right, tile.texels_right + 4),
                                   *std::min_element(tile.texels_down, tile.texels_down + 4));

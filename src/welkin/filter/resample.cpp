@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/base/parallel.h"
 #include "welkin/filter/resample_job.h"
 
 namespace welkin {

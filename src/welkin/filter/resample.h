@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "welkin/base/parallel.h"
+#include "welkin/base/monitor.h"
 #include "welkin/filter/filter.h"
 #include "welkin/map/map.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "welkin/base/parallel.h"
 #include "welkin/filter/area.h"
 #include "welkin/filter/footprint.h"
 #include "welkin/filter/resample_job.h"

@@ -1,7 +1,7 @@
 #include "welkin/filter/resample_job.h"
+#include "welkin/base/error.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace welkin {
 
@@ -15,7 +15,7 @@ ResampleJob::ResampleJob(const Map& from, Map& to, const ResampleOptions& how)
       source_is_whole(from.parameterization.whole_world()),
       kernels(fetch_kernels(from.channels())),
       fill(how.fill) {
-  assert(from.channels() == to.channels());
+  require(from.channels() == to.channels(), "the maps to resample between have other numbers of channels");
   fill.resize(static_cast<std::size_t>(from.channels()), 0.0f);
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "welkin/base/parallel.h"
 #include "welkin/filter/resample_job.h"
 
 namespace welkin {

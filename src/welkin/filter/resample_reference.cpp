@@ -1,8 +1,9 @@
 #include "welkin/filter/resample_reference.h"
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 
 namespace welkin {
@@ -97,7 +98,9 @@ class Reference {
         samples_(options.filter == Filter::automatic ? samples : 1),
         to_source_(source.orientation * transpose(options.rotation) * transpose(target.orientation)),
         fill_(options.fill.begin(), options.fill.end()) {
-    assert(source.channels() == target.channels() && samples >= 1);
+    require(source.channels() == target.channels(),
+            "the maps to resample between have other numbers of channels");
+    require(samples >= 1, "resampling takes at least one sample for each texel");
     fill_.resize(static_cast<std::size_t>(source.channels()));
   }
 

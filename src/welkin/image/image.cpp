@@ -23,12 +23,14 @@ void Image::Free::operator()(float* p) const {
 
 Image::Image(int width, int height, int channels) {
   if (width <= 0 || height <= 0 || channels <= 0) {
-    throw Error("an image of " + std::to_string(width) + "×" + std::to_string(height) + " texels and " +
-                std::to_string(channels) + " channels cannot be made");
+    throw Error(ErrorKind::bad_request, "an image of " + std::to_string(width) + "×" +
+                                            std::to_string(height) + " texels and " +
+                                            std::to_string(channels) + " channels cannot be made");
   }
   const std::uint64_t most = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(float) / 2;
   const std::uint64_t texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (texels > most / static_cast<std::uint64_t>(channels)) throw Error("image size overflows");
+  if (texels > most / static_cast<std::uint64_t>(channels))
+    throw Error(ErrorKind::too_large, "image size overflows");
   const std::size_t values = static_cast<std::size_t>(texels) * static_cast<std::size_t>(channels);
   // calloc hands out fresh pages without touching them, so a large image costs nothing until it is written.
   const std::size_t bytes = values * sizeof(float) + kReadablePastEnd + kAlignment;
@@ -43,7 +45,8 @@ Image::Image(int width, int height, int channels) {
 }
 
 void copy_pixels(ImageView<const float> from, ImageView<float> to) {
-  assert(from.width == to.width && from.height == to.height && from.channels == to.channels);
+  require(from.width == to.width && from.height == to.height && from.channels == to.channels,
+          "pixels are copied between views of one size and number of channels");
   for (int y = 0; y < from.height; ++y) {
     std::copy_n(from.row(y), static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.channels),
                 to.row(y));

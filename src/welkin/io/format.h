@@ -1,9 +1,10 @@
 #pragma once
 
+#include "welkin/io/byte_sink.h"
+#include "welkin/io/capabilities.h"
 #include "welkin/io/image_file.h"
-#include "welkin/io/output_file.h"
 
-/// What one file format provides; formats.cpp lists them all. A new format is one file and one line there.
+/// What one file format provides; formats.cpp lists them all. A new format is one folder and one line there.
 namespace welkin::io {
 
 struct Source {
@@ -13,18 +14,18 @@ struct Source {
 };
 
 struct Format {
-  std::string_view name;
-  std::vector<std::string> extensions;
+  Capabilities capabilities;
   bool (*matches)(std::span<const std::byte> bytes);  ///< by magic number
   std::unique_ptr<Reader> (*open)(const Source& source);
-  /// Null when the format is read only. Throws Error without the file's name, which the caller adds.
-  WriteReport (*write)(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
+  /// What is asked for lies within the capabilities. Throws Error without the file's name, which the caller
+  /// adds.
+  WriteReport (*write)(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
 };
 
 /// All formats, in the order in which `matches` is asked.
 const std::vector<Format>& formats();
 
-// One per file of this room.
+// One per folder of this room.
 Format exr_format();
 Format hdr_format();
 Format ktx2_format();

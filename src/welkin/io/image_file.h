@@ -12,18 +12,13 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/image/image.h"
+#include "welkin/io/byte_sink.h"
+#include "welkin/io/capabilities.h"
 
 /// Bytes ↔ images. This room knows files and pixels; what a picture means on the sphere is decided in map/.
 namespace welkin::io {
-
-/// How one value of a pixel is stored in the file. In memory every value is a 32-bit float.
-/// rgb9e5 and r11g11b10 pack three values that are never negative into 32 bits: nine bits each with an
-/// exponent in common, and small floats of 6, 6 and 5 bits of mantissa.
-enum class PixelType { uint8, uint16, uint32, half, float32, rgb9e5, r11g11b10 };
-
-/// `uint8`, `uint16`, `uint32`, `half`, `float`, `rgb9e5`, `r11g11b10`.
-std::string_view name_of(PixelType type);
 
 /// The transfer function of stored colour values. Linear is radiance; sRGB is IEC 61966-2-1, made linear on
 /// reading. Alpha is always linear.
@@ -70,9 +65,9 @@ struct ReadOptions {
 /// own length where the format allows) when it is opened; pixels are decoded by `read`.
 ///
 /// Failures throw Error, `FILE: cause (byte offset or row where it helps)`.
-class Reader {
+class WELKIN_API Reader {
  public:
-  virtual ~Reader() = default;
+  virtual ~Reader();
 
   const FileInfo& info() const { return info_; }
 
@@ -80,18 +75,22 @@ class Reader {
   /// `out`) into `out`, which has the part's width and height and any row stride. Colour is linear
   /// afterwards. Non-finite and negative values are kept. EXR data windows are placed inside the display
   /// window; texels outside it are 0. Uses the calling thread and TBB's workers.
-  virtual void read(std::size_t part, std::span<const int> channels, ImageView<float> out) = 0;
+  /// Throws also Error (bad_request) for a part or a channel that there isn't, and for another size.
+  void read(std::size_t part, std::span<const int> channels, ImageView<float> out);
 
  protected:
+  /// What read does, its arguments checked.
+  virtual void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) = 0;
+
   FileInfo info_;
 };
 
 /// Opens a file by its first bytes, never by its name.
-std::unique_ptr<Reader> open(const std::filesystem::path& path, const ReadOptions& options = {});
+WELKIN_API std::unique_ptr<Reader> open(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same from memory, which must outlive the reader; `name` stands for the path in messages.
-std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name,
-                             const ReadOptions& options = {});
+WELKIN_API std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name,
+                                        const ReadOptions& options = {});
 
 /// A picture to be written, its channels named: `R G B`, `R G B A`, `Y`…
 struct WritePart {
@@ -122,8 +121,8 @@ struct WriteReport {
 /// Writes to a temporary file beside `path`, then renames it: on any failure nothing is left and an older
 /// file of that name stays. The format follows the name's extension. More than one part: EXR,
 /// KTX2 and TIFF only.
-WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
-                  const WriteOptions& options = {});
+WELKIN_API WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
+                             const WriteOptions& options = {});
 
 /// A file of a set.
 struct WriteFile {
@@ -133,13 +132,17 @@ struct WriteFile {
 
 /// The same for files that belong together, as the faces of a cube: they appear only when all are written.
 /// `next(i)` gives each of `count` files when its turn comes; what it refers to may be gone at the next call.
-WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
-                      const WriteOptions& options = {});
+WELKIN_API WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
+                                 const WriteOptions& options = {});
 
-/// Throws Error, without the name itself, when the name's extension is none that can be written.
-void check_extension(const std::filesystem::path& path);
+/// The same into a sink, in the format of that name (Capabilities::format).
+WELKIN_API WriteReport write(ByteSink& sink, std::string_view format, std::span<const WritePart> parts,
+                             const WriteOptions& options = {});
 
-/// Extensions that can be written, without dots: `exr hdr ktx2 pfm png jpg jpeg tif tiff webp`.
-std::vector<std::string> writable_extensions();
+/// Throws what `write` would throw for a picture of this size and these channels, before there is one: Error
+/// (unsupported, bad_request, too_large) about the file for what its format can't hold, or (denied,
+/// not_found…) for a folder that doesn't take it. Nothing is left behind.
+WELKIN_API void check_write(const std::filesystem::path& path, int width, int height,
+                            const std::vector<std::string>& channels, const WriteOptions& options = {});
 
 }  // namespace welkin::io

@@ -6,6 +6,8 @@
 #include <memory>
 #include <span>
 
+#include "welkin/io/byte_sink.h"
+
 namespace welkin::io {
 
 /// A file that appears under its name only when `commit` has succeeded. Until then the bytes are in a
@@ -15,20 +17,19 @@ namespace welkin::io {
 ///
 /// A symbolic link stays and its target is replaced; an older file's permissions are kept. A device or a pipe
 /// is written through by `commit`, from a spool that allows seeking. At most 256 can be unfinished at once.
-class OutputFile {
+class WELKIN_API OutputFile final : public ByteSink {
  public:
   explicit OutputFile(const std::filesystem::path& path);
-  ~OutputFile();
+  ~OutputFile() override;
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  void write(std::span<const std::byte> bytes);
-  void write(const void* data, std::size_t size);
-  /// Bytes at `offset` that were written before, for libraries that read back their own output.
-  std::size_t read_at(std::uint64_t offset, void* data, std::size_t size);
-  void seek(std::uint64_t offset);
-  std::uint64_t tell() const;
-  std::uint64_t size() const;
+  using ByteSink::write;
+  void write(std::span<const std::byte> bytes) override;
+  std::size_t read_at(std::uint64_t offset, void* data, std::size_t size) override;
+  void seek(std::uint64_t offset) override;
+  std::uint64_t tell() const override;
+  std::uint64_t size() const override;
 
   void commit();
 

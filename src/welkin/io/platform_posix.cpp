@@ -34,8 +34,24 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
+ErrorKind kind_of(int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+      return ErrorKind::not_found;
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return ErrorKind::denied;
+    case EISDIR:
+      return ErrorKind::bad_request;
+    default:
+      return ErrorKind::system;
+  }
+}
+
 [[noreturn]] void fail() {
-  throw Error(reason(errno));
+  throw Error(kind_of(errno), reason(errno));
 }
 
 class Descriptor {
@@ -80,7 +96,7 @@ std::array<Slot, 256> unfinished;
 class Registration {
  public:
   explicit Registration(const std::string& path) {
-    if (path.size() >= PATH_MAX) throw Error(reason(ENAMETOOLONG));
+    if (path.size() >= PATH_MAX) throw Error(kind_of(ENAMETOOLONG), reason(ENAMETOOLONG));
     for (Slot& slot : unfinished) {
       int expected = kFree;
       if (!slot.state.compare_exchange_strong(expected, kFilling)) continue;
@@ -90,7 +106,8 @@ class Registration {
       slot_ = &slot;
       return;
     }
-    throw Error("more than " + std::to_string(unfinished.size()) + " files are being written at once");
+    throw Error(ErrorKind::system,
+                "more than " + std::to_string(unfinished.size()) + " files are being written at once");
   }
   ~Registration() { slot_->state.store(kFree); }
   Registration(const Registration&) = delete;
@@ -108,10 +125,10 @@ fs::path follow_links(fs::path path) {
     std::error_code error;
     if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
     const fs::path target = fs::read_symlink(path, error);
-    if (error) throw Error(error.message());
+    if (error) throw Error(ErrorKind::system, error.message());
     path = target.is_absolute() ? target : path.parent_path() / target;
   }
-  throw Error(reason(ELOOP));
+  throw Error(kind_of(ELOOP), reason(ELOOP));
 }
 
 /// A name beside `target` that nobody else has: hidden, with the process's number and a count.
@@ -156,11 +173,11 @@ struct OutputFile::State {
 
 OutputFile::OutputFile(const fs::path& path) : state_(std::make_unique<State>()) {
   State& state = *state_;
-  if (path.empty()) throw Error(reason(ENOENT));
+  if (path.empty()) throw Error(kind_of(ENOENT), reason(ENOENT));
   struct stat old {};
   const bool exists = ::stat(path.c_str(), &old) == 0;
   if (!exists && errno != ENOENT) fail();
-  if (exists && S_ISDIR(old.st_mode)) throw Error(reason(EISDIR));
+  if (exists && S_ISDIR(old.st_mode)) throw Error(kind_of(EISDIR), reason(EISDIR));
   if (exists && ::access(path.c_str(), W_OK) != 0) fail();
   const std::string text = path.lexically_normal().string();
   const bool kernel_file =
@@ -187,7 +204,7 @@ OutputFile::OutputFile(const fs::path& path) : state_(std::make_unique<State>())
   if (exists && ::fchmod(state.file->number(), old.st_mode & 0777) != 0) {
     const int error = errno;
     state.discard();
-    throw Error(reason(error));
+    throw Error(kind_of(error), reason(error));
   }
 }
 
@@ -195,13 +212,10 @@ OutputFile::~OutputFile() {
   state_->discard();
 }
 
-void OutputFile::write(std::span<const std::byte> bytes) {
-  write(bytes.data(), bytes.size());
-}
-
-void OutputFile::write(const void* data, std::size_t size) {
+void OutputFile::write(std::span<const std::byte> data) {
   State& state = *state_;
-  const auto* bytes = static_cast<const char*>(data);
+  const std::byte* bytes = data.data();
+  std::size_t size = data.size();
   while (size > 0) {
     const ssize_t written = ::pwrite(state.file->number(), bytes, size, static_cast<off_t>(state.position));
     if (written < 0 && errno == EINTR) continue;
@@ -239,14 +253,14 @@ std::uint64_t OutputFile::size() const {
 
 void OutputFile::commit() {
   State& state = *state_;
-  assert(state.file->number() >= 0 && "committed once");
+  require(state.file->number() >= 0, "an output file is committed once");
   if (state.spooled()) {
     Descriptor target(::open(state.target.c_str(), O_WRONLY | O_CLOEXEC));
     if (target.number() < 0) fail();
     std::vector<std::byte> block(std::size_t{1} << 20);
     for (std::uint64_t at = 0; at < state.size;) {
       const std::size_t got = read_at(at, block.data(), block.size());
-      if (got == 0) throw Error("the spooled bytes have vanished");
+      if (got == 0) throw Error(ErrorKind::system, "the spooled bytes have vanished");
       write_fully(target.number(), block.data(), got);
       at += got;
     }
@@ -260,11 +274,11 @@ void OutputFile::commit() {
 }
 
 InputFile::InputFile(const fs::path& path) {
-  const auto fail_named = [&] { throw Error(path.string() + ": " + reason(errno)); };
+  const auto fail_named = [&] { throw Error(kind_of(errno), path.string(), reason(errno)); };
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status {};
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) fail_named();
-  if (S_ISDIR(status.st_mode)) throw Error(path.string() + ": " + reason(EISDIR));
+  if (S_ISDIR(status.st_mode)) throw Error(kind_of(EISDIR), path.string(), reason(EISDIR));
 
   const auto map = [&](std::size_t size, int protection, int flags, int descriptor) {
     void* address = ::mmap(nullptr, size, protection, flags, descriptor, 0);
@@ -281,7 +295,7 @@ InputFile::InputFile(const fs::path& path) {
   for (;;) {
     constexpr std::size_t kBlock = std::size_t{1} << 20;
     const std::size_t before = read.size();
-    if (before > kLongestPipe) throw Error(path.string() + ": does not end within 8 GiB");
+    if (before > kLongestPipe) throw Error(ErrorKind::too_large, path.string(), "does not end within 8 GiB");
     read.resize(before + kBlock);
     const ssize_t got = ::read(file.number(), read.data() + before, kBlock);
     if (got < 0 && errno != EINTR) fail_named();

@@ -49,7 +49,8 @@ std::string attribute_lines(const std::map<std::string, std::string>& attributes
   for (const auto& [name, value] : attributes) {
     if (name == others) continue;
     if (!is_name(name)) {
-      throw Error("the attribute name '" + name + "' cannot be written as a line name=value");
+      throw Error(ErrorKind::unsupported,
+                  "the attribute name '" + name + "' cannot be written as a line name=value");
     }
     text += name + "=";
     for (const char c : value) text += is_control(c) ? ' ' : c;

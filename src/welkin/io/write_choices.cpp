@@ -8,14 +8,16 @@ namespace welkin::io {
 
 const WritePart& only_part(std::span<const WritePart> parts, std::string_view format) {
   if (parts.size() == 1) return parts.front();
-  throw Error(std::string(format) + " holds one picture, not " + std::to_string(parts.size()));
+  throw Error(ErrorKind::unsupported,
+              std::string(format) + " holds one picture, not " + std::to_string(parts.size()));
 }
 
 void check_sides(const WritePart& part, int largest, std::string_view format) {
   if (part.image.width <= largest && part.image.height <= largest) return;
-  throw Error(std::to_string(part.image.width) + "×" + std::to_string(part.image.height) +
-              " is too large for " + std::string(format) + ", whose sides are at most " +
-              std::to_string(largest));
+  throw Error(ErrorKind::bad_request, std::to_string(part.image.width) + "×" +
+                                          std::to_string(part.image.height) + " is too large for " +
+                                          std::string(format) + ", whose sides are at most " +
+                                          std::to_string(largest));
 }
 
 std::vector<int> channel_order(const WritePart& part, Alpha alpha, std::string_view format) {
@@ -35,8 +37,9 @@ std::vector<int> channel_order(const WritePart& part, Alpha alpha, std::string_v
   }
   std::string asked;
   for (const auto& name : part.channels) asked += (asked.empty() ? "" : " ") + name;
-  throw Error(std::string(format) + " holds the channels Y or R G B" +
-              (alpha == Alpha::allowed ? ", either with A" : " without alpha") + "; not " + asked);
+  throw Error(ErrorKind::unsupported, std::string(format) + " holds the channels Y or R G B" +
+                                          (alpha == Alpha::allowed ? ", either with A" : " without alpha") +
+                                          "; not " + asked);
 }
 
 PixelType pixel_type(const WriteOptions& options, std::span<const PixelType> known, std::string_view format) {
@@ -44,20 +47,22 @@ PixelType pixel_type(const WriteOptions& options, std::span<const PixelType> kno
   if (std::find(known.begin(), known.end(), *options.type) != known.end()) return *options.type;
   std::string names;
   for (const PixelType type : known) names += (names.empty() ? "" : ", ") + std::string(name_of(type));
-  throw Error(std::string(format) + " holds no " + std::string(name_of(*options.type)) +
-              " pixels (one of: " + names + ")");
+  throw Error(ErrorKind::unsupported, std::string(format) + " holds no " +
+                                          std::string(name_of(*options.type)) + " pixels (one of: " + names +
+                                          ")");
 }
 
 std::string compression(const WriteOptions& options, std::span<const std::string> known,
                         std::string_view format) {
   if (options.compression.empty()) return known.front();
   if (std::find(known.begin(), known.end(), options.compression) != known.end()) return options.compression;
-  throw Error(unknown_name(std::string(format) + " compression", options.compression, known));
+  throw Error(ErrorKind::bad_request,
+              unknown_name(std::string(format) + " compression", options.compression, known));
 }
 
 int checked_quality(const WriteOptions& options) {
   if (options.quality >= 1 && options.quality <= 100) return options.quality;
-  throw Error("the quality " + std::to_string(options.quality) + " is not in 1…100");
+  throw Error(ErrorKind::bad_request, "the quality " + std::to_string(options.quality) + " is not in 1…100");
 }
 
 Colour colour_for(PixelType type, Colour asked) {

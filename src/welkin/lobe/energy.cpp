@@ -1,9 +1,9 @@
 #include "welkin/lobe/energy.h"
 
-#include <cassert>
 #include <cmath>
 #include <vector>
 
+#include "welkin/base/error.h"
 #include "welkin/lobe/angle.h"
 #include "welkin/lobe/panels.h"
 #include "welkin/math/gauss_legendre.h"
@@ -26,7 +26,7 @@ double energy_between(const AnyLobe& lobe, double begin, double end) {
 }  // namespace
 
 double angle_holding(const AnyLobe& lobe, double share) {
-  assert(share >= 0 && share <= 1);
+  require(share >= 0 && share <= 1, "the share of a lobe's energy is in 0…1");
   if (lobe.mirror()) return 0;
   const std::vector<double> edges = panel_edges(lobe);
   std::vector<double> energies;

@@ -151,7 +151,7 @@ const Model& model_named(std::string_view name) {
     if (model->name() == name) return *model;
     names.push_back(model->name());
   }
-  throw Error(unknown_name("lobe", name, names));
+  throw Error(ErrorKind::bad_request, unknown_name("lobe", name, names));
 }
 
 /// Parameters and synonyms.
@@ -178,7 +178,7 @@ std::unique_ptr<Model> model_of(Table table, std::string origin) {
 std::unique_ptr<Model> table_from_file(std::string_view assignment) {
   constexpr std::string_view kFile = "file=";
   if (assignment.substr(0, kFile.size()) != kFile || assignment == kFile) {
-    throw Error("table: write table,file=PATH");
+    throw Error(ErrorKind::bad_request, "table: write table,file=PATH");
   }
   const std::string path(assignment.substr(kFile.size()));
   const TablePoints points = read_table_file(path);
@@ -225,7 +225,7 @@ AnyLobe AnyLobe::with_roughness(double roughness) const {
   const std::vector<Parameter> known = settable(*model_);
   const auto found =
       std::find_if(known.begin(), known.end(), [](const auto& p) { return p.name == "roughness"; });
-  if (found == known.end()) throw Error("the lobe " + name() + " has no roughness");
+  if (found == known.end()) throw Error(ErrorKind::bad_request, "the lobe " + name() + " has no roughness");
   std::unique_ptr<Model> made = model_->copy();
   check_range(name(), *found, roughness, number_text(roughness));
   made->set(found->name, roughness);

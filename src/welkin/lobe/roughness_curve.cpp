@@ -1,7 +1,6 @@
 #include "welkin/lobe/roughness_curve.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "welkin/base/error.h"
@@ -99,10 +98,11 @@ std::vector<double> parse_list(std::string_view text) {
     const std::string item(text.substr(0, comma));
     const auto value = parse_number(item);
     if (!value || !(*value >= 0 && *value <= 1)) {
-      throw Error("the roughness '" + item + "' is not a number in 0…1");
+      throw Error(ErrorKind::bad_request, "the roughness '" + item + "' is not a number in 0…1");
     }
     if (!list.empty() && !(*value > list.back())) {
-      throw Error("the roughness " + item + " is not above the one before, " + number_text(list.back()));
+      throw Error(ErrorKind::bad_request,
+                  "the roughness " + item + " is not above the one before, " + number_text(list.back()));
     }
     list.push_back(*value);
     if (comma == std::string_view::npos) return list;
@@ -130,7 +130,7 @@ RoughnessCurve RoughnessCurve::from_name(std::string_view text) {
   if (looks_like_a_list(text)) {
     made.list_ = parse_list(text);
   } else if (curve_named(text) == nullptr) {
-    throw Error(unknown_name("roughness curve", text, roughness_curve_names()));
+    throw Error(ErrorKind::bad_request, unknown_name("roughness curve", text, roughness_curve_names()));
   }
   return made;
 }
@@ -144,10 +144,10 @@ std::string RoughnessCurve::source() const {
 }
 
 void RoughnessCurve::check_levels(int levels) const {
-  assert(levels >= 1);
+  require(levels >= 1, "a chain has at least one level");
   if (!list_.empty() && levels != listed_levels()) {
-    throw Error("the list " + text_ + " has " + std::to_string(listed_levels()) + " roughnesses for " +
-                std::to_string(levels) + " levels");
+    throw Error(ErrorKind::bad_request, "the list " + text_ + " has " + std::to_string(listed_levels()) +
+                                            " roughnesses for " + std::to_string(levels) + " levels");
   }
 }
 
@@ -163,7 +163,7 @@ double RoughnessCurve::roughness(double level, int levels) const {
 double RoughnessCurve::level_of(double roughness, int levels) const {
   check_levels(levels);
   if (!(roughness >= 0 && roughness <= 1)) {
-    throw Error("the roughness " + number_text(roughness) + " is not in 0…1");
+    throw Error(ErrorKind::bad_request, "the roughness " + number_text(roughness) + " is not in 0…1");
   }
   if (list_.empty()) {
     return std::clamp(curve_named(text_)->level(roughness, levels - 1), 0.0, levels - 1.0);

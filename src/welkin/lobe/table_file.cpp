@@ -18,12 +18,13 @@ constexpr std::string_view kBlank = " \t\r\f\v";
 
 std::string read_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path + ": cannot be opened");
+  if (!in) throw Error(ErrorKind::not_found, path, "cannot be opened");
   std::string text(kMostBytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw Error(path + ": cannot be read");
+  if (in.bad()) throw Error(ErrorKind::system, path, "cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMostBytes) throw Error(path + ": is over 1 MiB, more than a table of a lobe may have");
+  if (text.size() > kMostBytes)
+    throw Error(ErrorKind::too_large, path, "is over 1 MiB, more than a table of a lobe may have");
   return text;
 }
 
@@ -59,7 +60,7 @@ TablePoints read_table_file(const std::string& path) {
     if (content.empty()) continue;
     const std::string where = path + ": line " + std::to_string(line);
     const auto pair = parse_pair(content);
-    if (!pair) throw Error(where + ": is not an angle and a value");
+    if (!pair) throw Error(ErrorKind::damaged, where, "is not an angle and a value");
     check_point(where, points.degrees, pair->first, pair->second);
     points.degrees.push_back(pair->first);
     points.values.push_back(pair->second);

@@ -25,7 +25,7 @@ ChartSize chain_size(ChartSize finest, int level) {
   return {std::max(1, finest.width >> level), std::max(1, finest.height >> level)};
 }
 
-int most_levels(ChartSize finest) {
+int max_levels(ChartSize finest) {
   int levels = 1;
   while ((std::max(finest.width, finest.height) >> levels) > 0) ++levels;
   return levels;

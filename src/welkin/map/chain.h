@@ -39,6 +39,6 @@ struct Chain {
 ChartSize chain_size(ChartSize finest, int level);
 
 /// How many levels charts of this size have, down to 1×1.
-int most_levels(ChartSize finest);
+int max_levels(ChartSize finest);
 
 }  // namespace welkin

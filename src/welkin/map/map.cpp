@@ -1,7 +1,6 @@
 #include "welkin/map/map.h"
 
 #include <algorithm>
-#include <cassert>
 #include <vector>
 
 #include "welkin/base/error.h"
@@ -10,27 +9,28 @@ namespace welkin {
 
 Level::Level(int charts, int width, int height, int channels)
     : charts_(charts), width_(width), height_(height) {
-  assert(charts > 0);
+  require(charts > 0, "a level has at least one chart");
   constexpr int kLargestSide = 1 << 20;
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide / charts) {
-    throw Error("a map of " + std::to_string(charts) + " charts of " + std::to_string(width) + "×" +
-                std::to_string(height) + " texels cannot be made (a side is 1 to " +
-                std::to_string(kLargestSide / charts) + ")");
+    throw Error(ErrorKind::bad_request, "a map of " + std::to_string(charts) + " charts of " +
+                                            std::to_string(width) + "×" + std::to_string(height) +
+                                            " texels cannot be made (a side is 1 to " +
+                                            std::to_string(kLargestSide / charts) + ")");
   }
   if (channels < 1 || channels > kMostChannels) {
-    throw Error("a map has 1 to " + std::to_string(kMostChannels) + " channels, not " +
-                std::to_string(channels));
+    throw Error(ErrorKind::bad_request, "a map has 1 to " + std::to_string(kMostChannels) +
+                                            " channels, not " + std::to_string(channels));
   }
   storage_ = Image(width + 2 * kBorder, (height + 2 * kBorder) * charts, channels);
 }
 
 ImageView<float> Level::chart(int index) {
-  assert(index >= 0 && index < charts_);
+  require(index >= 0 && index < charts_, "the level has no chart of that number");
   return storage_.view().part(kBorder, index * (height_ + 2 * kBorder) + kBorder, width_, height_);
 }
 
 ImageView<const float> Level::chart(int index) const {
-  assert(index >= 0 && index < charts_);
+  require(index >= 0 && index < charts_, "the level has no chart of that number");
   return storage_.view().part(kBorder, index * (height_ + 2 * kBorder) + kBorder, width_, height_);
 }
 

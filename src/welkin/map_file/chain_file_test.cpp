@@ -78,9 +78,9 @@ TEST(Chain, LevelsHalveDownToOneTexel) {
   expect_size({256, 256}, 8, 1, 1);
   expect_size({21, 10}, 1, 10, 5);
   expect_size({21, 10}, 4, 1, 1);
-  EXPECT_EQ(most_levels({256, 256}), 9);
-  EXPECT_EQ(most_levels({255, 10}), 8);
-  EXPECT_EQ(most_levels({1, 1}), 1);
+  EXPECT_EQ(max_levels({256, 256}), 9);
+  EXPECT_EQ(max_levels({255, 10}), 8);
+  EXPECT_EQ(max_levels({1, 1}), 1);
 }
 
 TEST(Chain, NotesComeBackFromTheirText) {
@@ -127,7 +127,7 @@ TEST_F(ChainFile, EveryParameterizationComesBackFromItsOwnMetadata) {
 
 TEST_F(ChainFile, OddSizesOrientationsAndFacesComeBack) {
   for (const ChartSize size : {ChartSize{1, 1}, ChartSize{3, 3}, ChartSize{13, 13}, ChartSize{96, 96}}) {
-    Chain chain = numbered("cube", size, most_levels(size));
+    Chain chain = numbered("cube", size, max_levels(size));
     for (Map& map : chain.levels) map.orientation = convention_from_name("unreal").lookup;
     write_chain(file("odd.ktx2"), chain, parse_map_shape("cube:layers").layout);
     expect_same(chain, read_chain(file("odd.ktx2")));
@@ -139,7 +139,7 @@ TEST_F(ChainFile, OddSizesOrientationsAndFacesComeBack) {
   for (const char* extension : {"ktx2", "exr"}) {
     const fs::path path = file(std::string("odd.") + extension);
     for (const ChartSize size : {ChartSize{1, 1}, ChartSize{21, 17}, ChartSize{64, 1}, ChartSize{5, 100}}) {
-      const Chain chain = numbered("latlong", size, most_levels(size));
+      const Chain chain = numbered("latlong", size, max_levels(size));
       write_chain(path, chain, parse_map_shape("latlong").layout);
       expect_same(chain, read_chain(path));
     }

@@ -30,12 +30,11 @@ std::optional<Matrix3> matrix_from(const std::string& text) {
 }
 
 /// Whether a picture of this size can be of this shape: within one texel, or a hundredth, of the aspect.
-/// Texels of the equal-area map are never square, so it may have any aspect.
 bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
   const auto size = chart_size_in(shape.layout, width, height);
   if (!size) return false;
   chart = *size;
-  if (shape.parameterization.name() == "equal-area") return true;
+  if (shape.parameterization.traits().free_aspect) return true;
   const double wide = shape.parameterization.aspect() * chart.height;
   const double high = chart.width / shape.parameterization.aspect();
   return std::fabs(wide - chart.width) <= std::max(1.0, 0.01 * wide) || std::fabs(high - chart.height) < 1;
@@ -122,24 +121,28 @@ MapShape shape_from(const Declaration& declaration, const Matrix3& orientation) 
 /// Throws when the layout asks for other files or for more pictures than there are.
 void check_pictures(const fs::path& path, const io::FileInfo& file, const MapShape& shape, std::size_t part) {
   const LayoutKind kind = shape.layout.kind;
-  const std::string name = path.string() + ": ";
+  const std::string name = path.string();
   if (kind == LayoutKind::files && !is_pattern(path)) {
     const std::vector<std::string> charts = chart_names(shape.parameterization);
-    throw Error(name + shape.text() + " is in several files: put %s in the name, for " + charts[0] + ", " +
-                charts[1] + "…");
+    throw Error(
+        ErrorKind::bad_request, name,
+        shape.text() + " is in several files: put %s in the name, for " + charts[0] + ", " + charts[1] + "…");
   }
   if (kind != LayoutKind::files && is_pattern(path)) {
-    throw Error(name + "%s stands for a face's name, but " + shape.text() + " is in one file");
+    throw Error(ErrorKind::bad_request, name,
+                "%s stands for a face's name, but " + shape.text() + " is in one file");
   }
   const std::size_t pictures = pictures_of(file, 0).size();
   const std::size_t needed = kind == LayoutKind::layers ? shape.layout.cells.size() : 1;
   if (pictures < needed) {
-    throw Error(name + shape.text() + " needs " + std::to_string(needed) + " parts, the file has " +
-                std::to_string(pictures));
+    throw Error(ErrorKind::mismatch, name,
+                shape.text() + " needs " + std::to_string(needed) + " parts, the file has " +
+                    std::to_string(pictures));
   }
   if (part >= pictures / needed) {
-    throw Error(name + "has no part " + std::to_string(part) + " (parts are 0 to " +
-                std::to_string(pictures / needed - 1) + ")");
+    throw Error(ErrorKind::bad_request, name,
+                "has no part " + std::to_string(part) + " (parts are 0 to " +
+                    std::to_string(pictures / needed - 1) + ")");
   }
 }
 
@@ -151,8 +154,9 @@ ChartSize finest_chart(const fs::path& path, const io::FileInfo& file, const Rea
   const io::PartInfo& part = file.parts[pictures_of(file, 0)[first_picture(info.shape->layout, options)]];
   const int width = part.width - 2 * info.border * columns, height = part.height - 2 * info.border * rows;
   if (width < 1 || height < 1) {
-    throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
-                " leaves nothing inside a border of " + std::to_string(info.border));
+    throw Error(ErrorKind::mismatch, path.string(),
+                std::to_string(part.width) + "×" + std::to_string(part.height) +
+                    " leaves nothing inside a border of " + std::to_string(info.border));
   }
   // Texels that aren't square were asked for, where the file gives the very size of its charts.
   const std::optional<ChartSize> divided = chart_size_in(per_picture.layout, width, height);
@@ -161,12 +165,12 @@ ChartSize finest_chart(const fs::path& path, const io::FileInfo& file, const Rea
   if (size_fits(per_picture, width, height, chart)) return chart;
   char aspect[32];
   std::snprintf(aspect, sizeof aspect, "%.4g", info.shape->parameterization.aspect() * columns / rows);
-  throw Error(path.string() + ": " + std::to_string(part.width) + "×" + std::to_string(part.height) +
-              " does not fit " + info.shape->text() + " (" + info.reason + "), whose width is " + aspect +
-              " times its height" +
-              (columns * rows > 1
-                   ? " in " + std::to_string(columns) + "×" + std::to_string(rows) + " equal cells"
-                   : ""));
+  throw Error(
+      ErrorKind::mismatch, path.string(),
+      std::to_string(part.width) + "×" + std::to_string(part.height) + " does not fit " + info.shape->text() +
+          " (" + info.reason + "), whose width is " + aspect + " times its height" +
+          (columns * rows > 1 ? " in " + std::to_string(columns) + "×" + std::to_string(rows) + " equal cells"
+                              : ""));
 }
 
 /// Charts of the levels that hold the map: as many as the file declares, and as are pictures of charts half
@@ -199,15 +203,13 @@ std::vector<ChartSize> level_charts(const io::FileInfo& file, const ReadMapOptio
 
 }  // namespace
 
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
-bool is_texture(const fs::path& path) {
-  return extension_of(path) == "ktx2";
+const io::Capabilities& capabilities_or_none(const fs::path& path) {
+  static const io::Capabilities none;
+  try {
+    return io::capabilities_for(path);
+  } catch (const Error&) {
+    return none;
+  }
 }
 
 std::vector<std::size_t> pictures_of(const io::FileInfo& file, int level) {
@@ -238,7 +240,7 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
     info.shape = shape_from(declaration, info.orientation);
   } catch (const Error& error) {
     // A damaged declaration names its file; a bad request names itself.
-    if (!options.shape && options.faces.empty()) throw Error(path.string() + ": " + error.what());
+    if (!options.shape && options.faces.empty()) throw in_file(path.string(), error);
     throw;
   }
   check_pictures(path, file, *info.shape, options.part);
@@ -248,14 +250,14 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   try {
     check_turns(info.shape->layout, finest);
   } catch (const Error& error) {
-    throw Error(path.string() + ": " + error.what());
+    throw in_file(path.string(), error);
   }
   info.levels = level_charts(file, options, info, finest);
   const auto levels = static_cast<int>(info.levels.size());
   if (options.level < 0 || options.level >= levels) {
-    throw Error(path.string() + ": has " +
-                (levels == 1 ? "one level" : "levels 0…" + std::to_string(levels - 1)) + ", not " +
-                (levels == 1 ? "level " : "") + std::to_string(options.level));
+    throw Error(ErrorKind::bad_request, path.string(),
+                "has " + (levels == 1 ? "one level" : "levels 0…" + std::to_string(levels - 1)) + ", not " +
+                    (levels == 1 ? "level " : "") + std::to_string(options.level));
   }
   info.chart = info.levels[static_cast<std::size_t>(options.level)];
   info.shape = for_chart_size(*info.shape, info.chart);

@@ -1,7 +1,6 @@
 #include "welkin/map_file/layout.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "welkin/base/error.h"
 
@@ -111,7 +110,7 @@ int chart_from_name(const sphere::AnyParameterization& p, std::string name) {
   }
   const std::vector<std::string> names = chart_names(p);
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw Error(unknown_name("face", name, names));
+  if (found == names.end()) throw Error(ErrorKind::bad_request, unknown_name("face", name, names));
   return static_cast<int>(found - names.begin());
 }
 
@@ -161,34 +160,24 @@ struct CellMapping {
 
 }  // namespace
 
-const std::vector<Layout>& layouts_of(const sphere::AnyParameterization& p) {
-  static const std::vector<Layout> cube = cube_layouts();
-  static const std::vector<Layout> one = plain_layouts(1, 1), two = plain_layouts(2, 2),
-                                   eight = plain_layouts(8, 4), twelve = plain_layouts(12, 4);
-  static const std::vector<Layout> openexr_cube = [] {
-    std::vector<Layout> list = cube;
-    std::stable_partition(list.begin(), list.end(),
-                          [](const Layout& layout) { return layout.name == "openexr"; });
-    return list;
-  }();
-  if (p.name() == "openexr-cube") return openexr_cube;
-  switch (p.charts()) {
-    case 1:
-      return one;
-    case 2:
-      return two;
-    case 6:
-      return cube;
-    case 8:
-      return eight;
-    default:
-      assert(p.charts() == 12);
-      return twelve;
-  }
+namespace {
+
+/// Puts the layout of that name first.
+std::vector<Layout> with_default(std::vector<Layout> list, std::string_view name) {
+  std::stable_partition(list.begin(), list.end(), [&](const Layout& layout) { return layout.name == name; });
+  return list;
+}
+
+}  // namespace
+
+std::vector<Layout> layouts_of(const sphere::AnyParameterization& p) {
+  const sphere::Traits& traits = p.traits();
+  const int columns = traits.grid_columns > 0 ? traits.grid_columns : p.charts();
+  return with_default(traits.cube_faces ? cube_layouts() : plain_layouts(p.charts(), columns), traits.layout);
 }
 
 std::vector<std::string> chart_names(const sphere::AnyParameterization& p) {
-  if (p.charts() == 6) return {"px", "nx", "py", "ny", "pz", "nz"};
+  if (p.traits().cube_faces) return {"px", "nx", "py", "ny", "pz", "nz"};
   std::vector<std::string> names;
   for (int i = 0; i < p.charts(); ++i) names.push_back(std::to_string(i));
   return names;
@@ -207,7 +196,7 @@ MapShape parse_map_shape(std::string_view text) {
   std::string spec(head.substr(0, colon));
   spec += text.substr(comma);
   auto parameterization = sphere::AnyParameterization::make(spec);
-  const std::vector<Layout>& layouts = layouts_of(parameterization);
+  const std::vector<Layout> layouts = layouts_of(parameterization);
   if (colon == std::string_view::npos) return {parameterization, layouts.front()};
   const std::string_view wanted = head.substr(colon + 1);
   std::vector<std::string> names;
@@ -216,10 +205,11 @@ MapShape parse_map_shape(std::string_view text) {
     if (!layout.name.empty()) names.push_back(layout.name);
   }
   if (names.empty()) {
-    throw Error(parameterization.name() +
-                " is a single picture: it takes no layout, but ':" + std::string(wanted) + "' was given");
+    throw Error(ErrorKind::bad_request,
+                parameterization.name() +
+                    " is a single picture: it takes no layout, but ':" + std::string(wanted) + "' was given");
   }
-  throw Error(unknown_name("layout of " + parameterization.name(), wanted, names));
+  throw Error(ErrorKind::bad_request, unknown_name("layout of " + parameterization.name(), wanted, names));
 }
 
 MapShape for_chart_size(const MapShape& shape, ChartSize size) {
@@ -227,7 +217,7 @@ MapShape for_chart_size(const MapShape& shape, ChartSize size) {
 }
 
 Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& p) {
-  if (p.charts() != 6 || layout.kind == LayoutKind::layers) return layout;
+  if (!p.traits().cube_faces || layout.kind == LayoutKind::layers) return layout;
   Layout changed = layout;
   const bool adjoining =
       layout.name == "hcross" || layout.name == "vcross" || layout.name == "flat" || layout.name == "bands";
@@ -241,8 +231,8 @@ Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterizati
 Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, std::string_view faces) {
   const std::vector<std::string> parts = split(faces, ',');
   if (parts.size() != layout.cells.size()) {
-    throw Error("names " + std::to_string(parts.size()) + " faces, but " + p.name() + " has " +
-                std::to_string(layout.cells.size()));
+    throw Error(ErrorKind::bad_request, "names " + std::to_string(parts.size()) + " faces, but " + p.name() +
+                                            " has " + std::to_string(layout.cells.size()));
   }
   Layout changed = layout;
   std::sort(changed.cells.begin(), changed.cells.end(), [](const LayoutCell& a, const LayoutCell& b) {
@@ -253,7 +243,8 @@ Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, st
     const std::vector<std::string> words = split(parts[i], ':');
     LayoutCell& cell = changed.cells[i];
     cell.chart = chart_from_name(p, words[0]);
-    if (seen[static_cast<std::size_t>(cell.chart)]) throw Error("names '" + words[0] + "' twice");
+    if (seen[static_cast<std::size_t>(cell.chart)])
+      throw Error(ErrorKind::bad_request, "names '" + words[0] + "' twice");
     seen[static_cast<std::size_t>(cell.chart)] = true;
     for (std::size_t k = 1; k < words.size(); ++k) {
       if (words[k] == "mirror") {
@@ -263,11 +254,12 @@ Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, st
       } else if (words[k] == "0" || words[k] == "90" || words[k] == "180" || words[k] == "270") {
         cell.quarter_turns = (cell.quarter_turns + std::stoi(words[k]) / 90) & 3;
       } else {
-        throw Error("'" + parts[i] + "': after the face come 90, 180, 270 or mirror, not '" + words[k] + "'");
+        throw Error(ErrorKind::bad_request,
+                    "'" + parts[i] + "': after the face come 90, 180, 270 or mirror, not '" + words[k] + "'");
       }
     }
     if ((cell.quarter_turns & 1) != 0 && p.aspect() != 1)
-      throw Error("only square charts can be turned by 90°");
+      throw Error(ErrorKind::bad_request, "only square charts can be turned by 90°");
   }
   return changed;
 }
@@ -281,16 +273,26 @@ void check_turns(const Layout& layout, ChartSize size) {
   if (size.width == size.height) return;
   for (const LayoutCell& cell : layout.cells) {
     if ((cell.quarter_turns & 1) == 0) continue;
-    throw Error("faces of " + std::to_string(size.width) + "×" + std::to_string(size.height) +
-                " cannot be turned by 90° in " +
-                (layout.name.empty() ? std::string("a picture") : "the layout " + layout.name) +
-                ": they must be square");
+    throw Error(ErrorKind::mismatch,
+                "faces of " + std::to_string(size.width) + "×" + std::to_string(size.height) +
+                    " cannot be turned by 90° in " +
+                    (layout.name.empty() ? std::string("a picture") : "the layout " + layout.name) +
+                    ": they must be square");
   }
 }
 
+namespace {
+
+void check_cell(const LayoutCell& cell, ChartSize picture, ChartSize chart) {
+  if ((cell.quarter_turns & 1) != 0) std::swap(picture.width, picture.height);
+  require(picture.width == chart.width && picture.height == chart.height,
+          "a chart and the cell of its picture have other sizes");
+}
+
+}  // namespace
+
 void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart) {
-  assert((cell.quarter_turns & 1) == 0 ? chart.width == picture.width && chart.height == picture.height
-                                       : chart.width == picture.height && chart.height == picture.width);
+  check_cell(cell, {picture.width, picture.height}, {chart.width, chart.height});
   const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
   for (int y = 0; y < picture.height; ++y) {
     const float* from = picture.row(y);
@@ -302,8 +304,7 @@ void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, Imag
 }
 
 void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture) {
-  assert((cell.quarter_turns & 1) == 0 ? chart.width == picture.width && chart.height == picture.height
-                                       : chart.width == picture.height && chart.height == picture.width);
+  check_cell(cell, {picture.width, picture.height}, {chart.width, chart.height});
   const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
   for (int y = 0; y < picture.height; ++y) {
     const float* from = chart.data + map.start + y * map.step_y;

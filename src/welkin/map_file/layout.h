@@ -36,8 +36,9 @@ struct Layout {
 };
 
 /// The layouts of a parameterization, its default first. Crosses, strips and face files are pictures seen
-/// from inside, never mirrored; native cube faces are (docs/conventions.md).
-const std::vector<Layout>& layouts_of(const sphere::AnyParameterization& parameterization);
+/// from inside, never mirrored; native cube faces are (docs/conventions.md). Whether there are
+/// crosses, and how wide a grid is, the parameterization's traits say.
+std::vector<Layout> layouts_of(const sphere::AnyParameterization& parameterization);
 
 /// Names of the charts in file names and `--faces`: px nx py ny pz nz for cubes, else 0, 1, 2….
 std::vector<std::string> chart_names(const sphere::AnyParameterization& parameterization);

@@ -23,7 +23,7 @@ std::vector<int> choose_channels(const std::string& name, const io::PartInfo& pa
   std::vector<int> chosen;
   for (const std::string& channel : wanted) {
     const int index = index_of(channel);
-    if (index < 0) throw Error(name + ": " + unknown_name("channel", channel, part.channels));
+    if (index < 0) throw Error(ErrorKind::bad_request, name, unknown_name("channel", channel, part.channels));
     chosen.push_back(index);
   }
   if (!chosen.empty()) return chosen;
@@ -67,6 +67,12 @@ MapReader::MapReader(const fs::path& path, const ReadMapOptions& options)
       reader_(open_first(path, options)),
       info_(inspect(path, reader_->info(), options)) {}
 
+MapReader::MapReader(std::span<const std::byte> bytes, const std::string& name, const ReadMapOptions& options)
+    : path_(name), options_(options), reader_(io::open(bytes, name, options.image)) {
+  require(!is_pattern(path_), "bytes in memory are one file: their name cannot have a %s");
+  info_ = inspect(path_, reader_->info(), options);
+}
+
 void MapReader::set_faces(std::string faces) {
   options_.faces = std::move(faces);
   info_ = inspect(path_, reader_->info(), options_);
@@ -89,12 +95,17 @@ LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
   return {reader.read(), reader.info()};
 }
 
+LoadedMap read_map(std::span<const std::byte> bytes, const std::string& name, const ReadMapOptions& options) {
+  MapReader reader(bytes, name, options);
+  return {reader.read(), reader.info()};
+}
+
 const MapShape& MapReader::shape() const {
   if (info_.shape) return *info_.shape;
   const io::PartInfo& part = info_.image.parts.at(std::min(options_.part, info_.image.parts.size() - 1));
-  throw Error(path_.string() + ": cannot tell which parameterization " + std::to_string(part.width) + "×" +
-              std::to_string(part.height) +
-              " is; name it with --from (octahedral, angular, sphere, fisheye-equidistant…)");
+  throw Error(ErrorKind::bad_request, path_.string(),
+              "cannot tell which parameterization " + std::to_string(part.width) + "×" +
+                  std::to_string(part.height) + " is");
 }
 
 Map MapReader::read() {
@@ -126,9 +137,10 @@ Map MapReader::read() {
                               const std::string& file) {
     const io::PartInfo& other = from.info().parts.at(index);
     if (other.width - 2 * border != info.chart.width || other.height - 2 * border != info.chart.height) {
-      throw Error(file + ": is " + std::to_string(other.width) + "×" + std::to_string(other.height) +
-                  ", but the first face is " + std::to_string(info.chart.width) + "×" +
-                  std::to_string(info.chart.height));
+      throw Error(ErrorKind::mismatch, file,
+                  "is " + std::to_string(other.width) + "×" + std::to_string(other.height) +
+                      ", but the first face is " + std::to_string(info.chart.width) + "×" +
+                      std::to_string(info.chart.height));
     }
     const std::vector<int> own = choose_channels(file, other, map.channel_names);
     if (plain(cell)) return from.read(index, own, map.level.chart(cell.chart));
@@ -144,7 +156,7 @@ Map MapReader::read() {
         const auto reader = io::open(file, options.image);
         const std::vector<std::size_t> own = pictures_of(reader->info(), options.level);
         if (options.part >= own.size())
-          throw Error(file.string() + ": has fewer pictures than the first face");
+          throw Error(ErrorKind::mismatch, file.string(), "has fewer pictures than the first face");
         read_chart(*reader, own[options.part], layout.cells[i], file.string());
       }
       break;
@@ -169,6 +181,14 @@ Map MapReader::read() {
       }
   }
   fill_borders(map);
+  return map;
+}
+
+Map MapReader::read(int level) {
+  const int before = options_.level;
+  set_level(level);
+  Map map = read();
+  set_level(before);
   return map;
 }
 

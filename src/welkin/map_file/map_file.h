@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,13 +46,15 @@ struct MapFileInfo {
 /// A map's file, opened once: it may be a pipe. `path` contains `%s` when the charts are in files of their
 /// own; the first of these is opened, the others when they are read. Members throw Error: files that can't be
 /// read, shapes that don't exist, sizes that don't fit the shape.
-class MapReader {
+class WELKIN_API MapReader {
  public:
   explicit MapReader(const std::filesystem::path& path, const ReadMapOptions& options = {});
+  /// From memory, which must outlive the reader; `name` stands for the path in messages.
+  MapReader(std::span<const std::byte> bytes, const std::string& name, const ReadMapOptions& options = {});
 
   const MapFileInfo& info() const { return info_; }
 
-  /// The shape. Throws where there is none: the message says how to name it.
+  /// The shape. Throws Error (bad_request) where there is none: give it as ReadMapOptions::shape.
   const MapShape& shape() const;
 
   /// Changes these options, now that the shape is known.
@@ -62,6 +65,9 @@ class MapReader {
   /// The map, its borders filled. Throws also when the shape is unknown. A picture of one chart is decoded
   /// straight into the map; of several, the picture is in memory besides the map while this lasts.
   Map read();
+  /// The map of this level, whatever level the reader is set to. Throws Error (bad_request) where there is
+  /// none.
+  Map read(int level);
 
  private:
   std::filesystem::path path_;
@@ -76,30 +82,36 @@ struct LoadedMap {
 };
 
 /// Opens and reads.
-LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
+WELKIN_API LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
+/// The same from memory; `name` stands for the path in messages.
+WELKIN_API LoadedMap read_map(std::span<const std::byte> bytes, const std::string& name,
+                              const ReadMapOptions& options = {});
 
 /// Whether a file of this name can hold levels: EXR and KTX2 can.
-bool holds_levels(const std::filesystem::path& path);
+WELKIN_API bool holds_levels(const std::filesystem::path& path);
 
-/// The layout that a file of this name gets when none is named: charts are faces or layers in a texture
-/// (KTX2); cubes are strips in a picture with levels, whose halves are then pictures of halved faces; else it
-/// is the first of layouts_of.
-const Layout& default_layout(const sphere::AnyParameterization& parameterization,
-                             const std::filesystem::path& path, int levels = 1);
+/// The layout that a file of this format gets when none is named: charts are faces or layers in a texture;
+/// cubes are strips in a picture with levels, whose halves are then pictures of halved faces; else it is the
+/// first of layouts_of.
+WELKIN_API Layout default_layout(const sphere::AnyParameterization& parameterization,
+                                 const io::Capabilities& format, int levels = 1);
+WELKIN_API Layout default_layout(const sphere::AnyParameterization& parameterization,
+                                 const std::filesystem::path& path, int levels = 1);
 
 /// parse_map_shape for a file to write: without a layout in the text, the default_layout.
-MapShape parse_map_shape_for(const std::filesystem::path& path, std::string_view text, int levels = 1);
+WELKIN_API MapShape parse_map_shape_for(const std::filesystem::path& path, std::string_view text,
+                                        int levels = 1);
 
 /// For a map that goes from its file to another with its shape, which must be known: the layout stays too,
 /// but is the default_layout where one of the files is a texture and the other isn't.
-MapShape shape_for_copy(const MapFileInfo& from, const std::filesystem::path& to, int levels = 1);
+WELKIN_API MapShape shape_for_copy(const MapFileInfo& from, const std::filesystem::path& to, int levels = 1);
 
 /// Throws Error, naming the path, when it has a `%s` and the layout is of one file, or the other way round.
-void check_face_pattern(const std::filesystem::path& path, const Layout& layout);
+WELKIN_API void check_face_pattern(const std::filesystem::path& path, const Layout& layout);
 
 /// The files that a map is written to: one, or one for each chart where `path` has a `%s`.
-std::vector<std::filesystem::path> files_of(const std::filesystem::path& path,
-                                            const sphere::AnyParameterization& parameterization);
+WELKIN_API std::vector<std::filesystem::path> files_of(const std::filesystem::path& path,
+                                                       const sphere::AnyParameterization& parameterization);
 
 struct WriteMapOptions {
   io::WriteOptions image;
@@ -111,7 +123,20 @@ struct WriteMapOptions {
 /// Writes the charts in the layout. The parameterization, layout, faces and orientation go into the file's
 /// text metadata where the format has any, and reading it restores them. Cells that no chart fills are 0.
 /// In a KTX2, `layers` of a cube are the faces of a cube texture, and of others the layers of an array.
-io::WriteReport write_map(const std::filesystem::path& path, const Map& map, const Layout& layout,
-                          const WriteMapOptions& options = {});
+WELKIN_API io::WriteReport write_map(const std::filesystem::path& path, const Map& map, const Layout& layout,
+                                     const WriteMapOptions& options = {});
+/// The same in the default_layout.
+WELKIN_API io::WriteReport write_map(const std::filesystem::path& path, const Map& map,
+                                     const WriteMapOptions& options = {});
+/// The same into a sink, in the format of that name: `exr`, `hdr`, `png`…
+WELKIN_API io::WriteReport write_map(io::ByteSink& sink, std::string_view format, const Map& map,
+                                     const WriteMapOptions& options = {});
+
+/// Throws whatever writing `levels` levels of this shape and size would throw, before there is any map: of
+/// what the format, the layout, the faces, the border and the options allow, and of folders that don't take
+/// the files. `channels` are the names that the map will have. Nothing is left behind.
+WELKIN_API void check_write_map(const std::filesystem::path& path, const MapShape& shape, ChartSize size,
+                                int levels, const std::vector<std::string>& channels,
+                                const WriteMapOptions& options = {});
 
 }  // namespace welkin

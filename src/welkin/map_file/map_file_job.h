@@ -56,11 +56,19 @@ inline std::string attribute(const io::FileInfo& file, const char* key) {
   return found == file.attributes.end() ? std::string() : found->second;
 }
 
-/// The name's extension in small letters, without the dot.
-std::string extension_of(const std::filesystem::path& path);
+/// Where a map is written to: a file, or several where its path has a `%s`, or a sink.
+struct Destination {
+  std::filesystem::path path;  ///< of a sink, what messages call it
+  const io::Capabilities& format;
+  io::ByteSink* sink = nullptr;
 
-/// Whether a file of this name is a texture, whose charts are faces or layers unless it's asked otherwise.
-bool is_texture(const std::filesystem::path& path);
+  explicit Destination(const std::filesystem::path& file) : path(file), format(io::capabilities_for(file)) {}
+  Destination(io::ByteSink& to, std::string_view format_name)
+      : path(format_name), format(io::capabilities(format_name)), sink(&to) {}
+};
+
+/// What the format of a file of this name holds; of a name that tells no format, next to nothing.
+const io::Capabilities& capabilities_or_none(const std::filesystem::path& path);
 
 /// The pictures of a level: indices into the file's parts.
 std::vector<std::size_t> pictures_of(const io::FileInfo& file, int level);
@@ -73,7 +81,7 @@ MapFileInfo inspect(const std::filesystem::path& path, const io::FileInfo& file,
                     const ReadMapOptions& options);
 
 /// Writes maps as the levels of one file, as check_chain lets them be.
-io::WriteReport write_levels(const std::filesystem::path& path, std::span<const Map* const> levels,
+io::WriteReport write_levels(const Destination& destination, std::span<const Map* const> levels,
                              const Layout& layout, const WriteMapOptions& options);
 
 }  // namespace welkin::map_file

@@ -8,12 +8,16 @@
 
 namespace welkin {
 
+void check_border(int border, ChartSize size) {
+  if (border >= 0 && border <= size.width && border <= size.height) return;
+  throw Error(ErrorKind::mismatch, "a border of " + std::to_string(border) +
+                                       " texels is wider than a chart of " + std::to_string(size.width) +
+                                       "×" + std::to_string(size.height));
+}
+
 Image with_safety_border(const Map& map, int index, int border) {
   const int width = map.width(), height = map.height(), channels = map.channels();
-  if (border < 0 || border > width || border > height) {
-    throw Error("a border of " + std::to_string(border) + " texels is wider than a chart of " +
-                std::to_string(width) + "×" + std::to_string(height));
-  }
+  check_border(border, {width, height});
   const ImageView<const float> chart = map.level.chart(index);
   const auto& p = map.parameterization;
   Image out(width + 2 * border, height + 2 * border, channels);

@@ -6,9 +6,12 @@
 /// as plain textures.
 namespace welkin {
 
+/// Throws Error (mismatch) when a border of so many texels is negative, or wider than a chart.
+void check_border(int border, ChartSize size);
+
 /// Chart `index` with `border` texels around it: the texels of `fill_borders`, and further out the map read
 /// bicubically along the directions that the chart's extended domain has there; the nearest texel where the
-/// map shows nothing. Throws Error when the border is wider than the chart.
+/// map shows nothing. Throws as check_border does.
 Image with_safety_border(const Map& map, int index, int border);
 
 /// The coarsest level of a mip chain, made of plain 2×2 averages of the bordered chart, that a bilinear

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "welkin/base/error.h"
+#include "welkin/map_file/chain_file.h"
 #include "welkin/map_file/map_file.h"
 #include "welkin/map_file/map_file_job.h"
 #include "welkin/map_file/safety_border.h"
@@ -14,13 +15,13 @@ using namespace map_file;
 namespace {
 
 /// The map's metadata.
-io::WriteOptions declared(const fs::path& path, const Map& map, const Layout& layout,
+io::WriteOptions declared(const io::Capabilities& format, const Map& map, const Layout& layout,
                           const WriteMapOptions& options) {
   const auto& p = map.parameterization;
   io::WriteOptions image = options.image;
   image.attributes[kShapeKey] = MapShape{p, layout}.text();
   image.attributes[kChartKey] = text_of(ChartSize{map.width(), map.height()});
-  if (is_texture(path)) {
+  if (format.texture) {
     // Which has four channels in any case, or three.
     const auto& names = map.channel_names;
     const bool alpha = std::find(names.begin(), names.end(), "A") != names.end();
@@ -31,11 +32,10 @@ io::WriteOptions declared(const fs::path& path, const Map& map, const Layout& la
   // OpenEXR's attribute also says how the world lies: as the native one; and it knows no borders.
   if (!(map.orientation == Matrix3{})) {
     image.attributes[kOrientationKey] = text_of(map.orientation);
-  } else if (p.name() == "openexr-latlong" && options.border == 0) {
-    image.envmap = "latlong";
-  } else if (p.name() == "openexr-cube" && layout.name == "openexr" && options.faces.empty() &&
-             options.border == 0) {
-    image.envmap = "cube";
+  } else if (const sphere::Traits& traits = p.traits();
+             !traits.envmap.empty() && options.faces.empty() && options.border == 0 &&
+             (traits.layout.empty() || traits.layout == layout.name)) {
+    image.envmap = std::string(traits.envmap);
   }
   return image;
 }
@@ -88,27 +88,31 @@ class Pictures {
 
 void check_face_pattern(const fs::path& path, const Layout& layout) {
   if (is_pattern(path) == (layout.kind == LayoutKind::files)) return;
-  throw Error(path.string() +
-              (is_pattern(path)
-                   ? ": %s stands for a face's name: write to :faces, as in cube:faces"
-                   : ": several files are written: put %s in the name, where the face's name goes"));
+  throw Error(
+      ErrorKind::bad_request, path.string(),
+      (is_pattern(path) ? "%s stands for a face's name: write to :faces, as in cube:faces"
+                        : "several files are written: put %s in the name, where the face's name goes"));
 }
 
 bool holds_levels(const fs::path& path) {
-  return is_texture(path) || extension_of(path) == "exr";
+  return capabilities_or_none(path).levels;
 }
 
-const Layout& default_layout(const sphere::AnyParameterization& parameterization, const fs::path& path,
-                             int levels) {
-  const std::vector<Layout>& layouts = layouts_of(parameterization);
-  const auto named = [&](const char* name) -> const Layout& {
+Layout default_layout(const sphere::AnyParameterization& parameterization, const io::Capabilities& format,
+                      int levels) {
+  const std::vector<Layout> layouts = layouts_of(parameterization);
+  const auto named = [&](std::string_view name) -> const Layout& {
     const auto found = std::find_if(layouts.begin(), layouts.end(),
                                     [&](const Layout& layout) { return layout.name == name; });
     return found == layouts.end() ? layouts.front() : *found;
   };
-  if (is_texture(path)) return named("layers");
+  if (format.texture) return named("layers");
   if (levels > 1 && layouts.front().name == "hcross") return named("vstrip");
   return layouts.front();
+}
+
+Layout default_layout(const sphere::AnyParameterization& parameterization, const fs::path& path, int levels) {
+  return default_layout(parameterization, capabilities_or_none(path), levels);
 }
 
 MapShape parse_map_shape_for(const fs::path& path, std::string_view text, int levels) {
@@ -119,9 +123,10 @@ MapShape parse_map_shape_for(const fs::path& path, std::string_view text, int le
 }
 
 MapShape shape_for_copy(const MapFileInfo& from, const fs::path& to, int levels) {
+  require(from.shape.has_value(), "the shape of the map to copy is unknown");
   // By its name: the turns that the faces were given are undone by reading it.
   MapShape shape = parse_map_shape(from.shape->text());
-  if ((from.image.format == "ktx2") != is_texture(to))
+  if (io::capabilities(from.image.format).texture != capabilities_or_none(to).texture)
     shape.layout = default_layout(shape.parameterization, to, levels);
   return shape;
 }
@@ -133,28 +138,29 @@ std::vector<fs::path> files_of(const fs::path& path, const sphere::AnyParameteri
   return files;
 }
 
-io::WriteReport map_file::write_levels(const fs::path& path, std::span<const Map* const> levels,
+io::WriteReport map_file::write_levels(const Destination& destination, std::span<const Map* const> levels,
                                        const Layout& layout, const WriteMapOptions& options) {
   const Map& finest = *levels.front();
   const auto& p = finest.parameterization;
   Layout placed = layout_for(layout, p, finest.orientation);
   if (!options.faces.empty()) placed = with_faces(placed, p, options.faces);
-  check_face_pattern(path, placed);
-  const io::WriteOptions image = declared(path, finest, layout, options);
+  if (destination.sink == nullptr) check_face_pattern(destination.path, placed);
+  const io::WriteOptions image = declared(destination.format, finest, layout, options);
   const std::vector<std::string> names = chart_names(p);
   Pictures pictures(placed, options.border);
   if (placed.kind == LayoutKind::files) {
+    require(destination.sink == nullptr, "a layout of several files cannot be written to one sink");
     return io::write_set(
         placed.cells.size(),
         [&](std::size_t i) {
           pictures.drop();
-          return io::WriteFile{chart_path(path, names[i]),
+          return io::WriteFile{chart_path(destination.path, names[i]),
                                {{"", pictures.of_cell(finest, placed.cells[i]), finest.channel_names}}};
         },
         image);
   }
   // Only faces that a look-up by direction is meant for make a cube texture.
-  const bool texture = is_texture(path), cube = p.name() == "cube";
+  const bool texture = destination.format.texture, cube = p.traits().cube_texture;
   std::vector<io::WritePart> parts;
   for (std::size_t level = 0; level < levels.size(); ++level) {
     const Map& map = *levels[level];
@@ -168,13 +174,42 @@ io::WriteReport map_file::write_levels(const fs::path& path, std::span<const Map
                        static_cast<int>(level), texture && !cube ? index : 0, texture && cube ? index : 0});
     }
   }
-  return io::write(path, parts, image);
+  if (destination.sink != nullptr)
+    return io::write(*destination.sink, destination.format.format, parts, image);
+  return io::write(destination.path, parts, image);
 }
 
 io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& layout,
                           const WriteMapOptions& options) {
   const Map* const level = &map;
-  return write_levels(path, {&level, 1}, layout, options);
+  return write_levels(Destination(path), {&level, 1}, layout, options);
+}
+
+io::WriteReport write_map(const fs::path& path, const Map& map, const WriteMapOptions& options) {
+  return write_map(path, map, default_layout(map.parameterization, path), options);
+}
+
+io::WriteReport write_map(io::ByteSink& sink, std::string_view format, const Map& map,
+                          const WriteMapOptions& options) {
+  const Destination destination(sink, format);
+  const Map* const level = &map;
+  return write_levels(destination, {&level, 1}, default_layout(map.parameterization, destination.format, 1),
+                      options);
+}
+
+void check_write_map(const fs::path& path, const MapShape& shape, ChartSize size, int levels,
+                     const std::vector<std::string>& channels, const WriteMapOptions& options) {
+  Layout layout = shape.layout;
+  if (!options.faces.empty()) layout = with_faces(layout, shape.parameterization, options.faces);
+  check_face_pattern(path, layout);
+  check_turns(layout, size);
+  check_border(options.border, size);
+  check_chain(path, shape, size, levels, options);
+  const bool one_picture = layout.kind == LayoutKind::picture;
+  const int width = (one_picture ? layout.columns : 1) * (size.width + 2 * options.border);
+  const int height = (one_picture ? layout.rows : 1) * (size.height + 2 * options.border);
+  for (const fs::path& file : files_of(path, shape.parameterization))
+    io::check_write(file, width, height, channels, options.image);
 }
 
 }  // namespace welkin

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/filter/fetch.h"
 #include "welkin/image/color_ramp.h"
 #include "welkin/map/borders.h"
@@ -87,7 +89,8 @@ std::vector<ChannelPair> common_channels(const Map& a, const Map& b) {
       pairs.push_back({a.channel_names[static_cast<std::size_t>(i)], i, i, true});
     }
   }
-  if (pairs.empty()) throw Error("the maps have no channels in common, and cannot be compared");
+  if (pairs.empty())
+    throw Error(ErrorKind::mismatch, "the maps have no channels in common, and cannot be compared");
   if (std::none_of(pairs.begin(), pairs.end(), [](const ChannelPair& pair) { return pair.counts; })) {
     for (ChannelPair& pair : pairs) pair.counts = true;
   }
@@ -358,12 +361,12 @@ class Comparer {
 
 Comparison compare(const Map& a, const Map& b, const CompareOptions& options, Map* heat) {
   if (!(options.peak >= 0) || std::isinf(options.peak)) {
-    throw Error("the peak of PSNR must be a positive number, or 0 for the default");
+    throw Error(ErrorKind::bad_request, "the peak of PSNR must be a positive number, or 0 for the default");
   }
   constexpr int kWidest = 1 << 15;
   if (heat != nullptr && (options.heat_width < 2 || options.heat_width > kWidest)) {
-    throw Error("the heat map's width must be 2 to " + std::to_string(kWidest) + ", not " +
-                std::to_string(options.heat_width));
+    throw Error(ErrorKind::bad_request, "the heat map's width must be 2 to " + std::to_string(kWidest) +
+                                            ", not " + std::to_string(options.heat_width));
   }
   return Comparer(a, b, options).run(heat);
 }

@@ -130,8 +130,9 @@ DensityLimits density_limits(const AnyParameterization& parameterization) {
 DensityReport density_of(const AnyParameterization& parameterization, int size) {
   constexpr int kMostTexels = 16384;
   if (size < 2 || size > kMostTexels) {
-    throw Error("the density of charts can be shown for 2 to " + std::to_string(kMostTexels) +
-                " texels across, not " + std::to_string(size));
+    throw Error(ErrorKind::bad_request, "the density of charts can be shown for 2 to " +
+                                            std::to_string(kMostTexels) + " texels across, not " +
+                                            std::to_string(size));
   }
   DensityReport report;
   report.width = size;

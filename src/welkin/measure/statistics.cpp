@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "welkin/base/parallel.h"
 #include "welkin/map/row_bands.h"
 #include "welkin/measure/luminance.h"
 

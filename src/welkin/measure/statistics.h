@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "welkin/base/parallel.h"
+#include "welkin/base/monitor.h"
 #include "welkin/map/map.h"
 
 namespace welkin {

@@ -1,11 +1,11 @@
 #include "welkin/plot/draw_lobes.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "welkin/base/error.h"
 #include "welkin/image/color_ramp.h"
 #include "welkin/image/drawing.h"
 #include "welkin/lobe/angle.h"
@@ -144,7 +144,8 @@ void draw_curve(Image& picture, const AnyLobe& lobe, const Frame& frame, const R
 }  // namespace
 
 Image draw_lobes(std::span<const AnyLobe> lobes, const LobePlot& plot) {
-  assert(plot.width >= 200 && plot.degrees >= 1 && plot.degrees <= 180);
+  require(plot.width >= 200 && plot.degrees >= 1 && plot.degrees <= 180,
+          "a plot of lobes is at least 200 pixels wide, and shows 1 to 180 degrees");
   const Frame frame(plot);
   Image picture(plot.width, frame.height(), 3);
   fill_box(picture, {0, 0, picture.width(), picture.height()}, kWhite);

@@ -34,11 +34,12 @@ void draw_level(const Layout& layout, const Level& level, float scale, ImageView
 Image draw_mip_sheet(const Map& map, double exposure) {
   constexpr int kLargest = 512;
   if (map.width() > kLargest || map.height() > kLargest) {
-    throw Error("a sheet of the pyramid is drawn of charts of at most 512 texels; this one is " +
-                std::to_string(map.width()) + "×" + std::to_string(map.height()) +
-                ": convert it with --size first");
+    throw Error(ErrorKind::too_large,
+                "a sheet of the pyramid is drawn of charts of at most 512 texels; this one is " +
+                    std::to_string(map.width()) + "×" + std::to_string(map.height()) +
+                    ": resample it to a smaller size first");
   }
-  const Layout& layout = layouts_of(map.parameterization).front();
+  const Layout layout = layouts_of(map.parameterization).front();
   const float scale = static_cast<float>(std::exp2(exposure));
   const int levels = std::max(0, levels_below(map.width(), map.height()) - 1);
   const int width = layout.columns * map.width(), height = layout.rows * map.height();

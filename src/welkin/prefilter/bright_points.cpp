@@ -1,4 +1,6 @@
 #include "welkin/prefilter/bright_points.h"
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -181,7 +183,8 @@ BrightPoints take_bright_points(Moments& moments, const BrightRule& rule, const 
     dimmest = std::min(dimmest, static_cast<double>(each.dimmest));
   }
   if (!(sum < 1e34))
-    throw Error("prefilter: the map has values that are NaN, infinite or too large to be added up");
+    throw Error(ErrorKind::bad_value,
+                "prefilter: the map has values that are NaN, infinite or too large to be added up");
   const double mean = sum / (static_cast<double>(moments.width) * moments.height * moments.channels);
   dimmest = std::max(dimmest, rule.darkest * sum / (4 * kPi));
   const float least = static_cast<float>(rule.contrast * mean);

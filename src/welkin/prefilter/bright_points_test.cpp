@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "welkin/base/error.h"
 #include "welkin/math/scalar.h"
 
 namespace welkin::prefilter {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <mutex>
 
+#include "welkin/base/parallel.h"
 #include "welkin/prefilter/bright_points.h"
 #include "welkin/prefilter/kernels.h"
 #include "welkin/prefilter/level_texels.h"

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "welkin/base/parallel.h"
 #include "welkin/lobe/panels.h"
 #include "welkin/map/texel_points.h"
 #include "welkin/math/gauss_legendre.h"

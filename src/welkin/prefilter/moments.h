@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "welkin/base/parallel.h"
+#include "welkin/base/monitor.h"
 #include "welkin/map/map.h"
 #include "welkin/prefilter/buffer.h"
 

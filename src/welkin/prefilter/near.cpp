@@ -2,6 +2,7 @@
 #include <array>
 #include <cstring>
 
+#include "welkin/base/parallel.h"
 #include "welkin/prefilter/kernels.h"
 #include "welkin/prefilter/spline_grid.h"
 #include "welkin/prefilter/tables.h"

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <optional>
 
+#include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
+#include "welkin/base/parallel.h"
 #include "welkin/filter/resample.h"
 #include "welkin/lobe/energy.h"
 #include "welkin/map/adjust.h"
@@ -21,12 +23,13 @@ using namespace prefilter;
 void check(const PrefilterShape& source, const std::vector<PrefilterLevel>& levels,
            const PrefilterOptions& options) {
   const auto positive = [](ChartSize size) { return size.width > 0 && size.height > 0; };
-  if (!positive(source.size) || source.channels < 1) throw Error("prefilter: the source has no texels");
+  if (!positive(source.size) || source.channels < 1)
+    throw Error(ErrorKind::bad_request, "prefilter: the source has no texels");
   for (const PrefilterLevel& level : levels) {
-    if (!positive(level.size)) throw Error("prefilter: a level has no texels");
+    if (!positive(level.size)) throw Error(ErrorKind::bad_request, "prefilter: a level has no texels");
   }
   if (!(options.tolerance >= 1e-6 && options.tolerance <= 0.1)) {
-    throw Error("prefilter: the tolerance is not in 1e-6…0.1");
+    throw Error(ErrorKind::bad_request, "prefilter: the tolerance is not in 1e-6…0.1");
   }
 }
 
@@ -43,7 +46,9 @@ void check_values(const Map& source, const Monitor& monitor) {
         if (wrong > 0) fine = false;
       },
       without_progress(monitor));
-  if (!fine) throw Error("prefilter: the map has values that are NaN, infinite, or beyond ±1e30");
+  if (!fine)
+    throw Error(ErrorKind::bad_value,
+                "prefilter: the map has values that are NaN, infinite, or beyond ±1e30");
 }
 
 /// See PrefilterOptions::mirror_filter.
@@ -109,9 +114,10 @@ void check_near_size(int rows, int channels) {
   const double bytes = 4 * (orders / 8 * 30 * n / 2 + 4.4 * n * n * channels);
   constexpr double kMost = 24e9;
   if (bytes > kMost) {
-    throw Error("prefilter: so narrow a lobe on so fine a level would take " +
-                number_text(std::round(bytes / 1e9)) +
-                " GB of memory: make the level smaller, or the roughness 0 or larger");
+    throw Error(ErrorKind::too_large,
+                "prefilter: so narrow a lobe on so fine a level would take " +
+                    number_text(std::round(bytes / 1e9)) +
+                    " GB of memory: make the level smaller, or the roughness 0 or larger");
   }
 }
 
@@ -223,7 +229,7 @@ std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) c
   const Tables& t = *tables_;
   if (!(source.parameterization == t.source.parameterization) || source.width() != t.source.size.width ||
       source.height() != t.source.size.height || source.channels() != t.source.channels) {
-    throw Error("prefilter: the map has another shape than the plan was made for");
+    throw Error(ErrorKind::mismatch, "prefilter: the map has another shape than the plan was made for");
   }
   std::vector<Map> results;
   for (const PrefilterLevel& level : t.levels) {

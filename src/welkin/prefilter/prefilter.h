@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "welkin/base/parallel.h"
+#include "welkin/base/monitor.h"
 #include "welkin/filter/filter.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/map/map.h"

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "welkin/base/parallel.h"
+#include "welkin/base/monitor.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/map/map.h"
 #include "welkin/map/texel_points.h"

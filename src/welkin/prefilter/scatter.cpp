@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "welkin/base/parallel.h"
 #include "welkin/map/texel_points.h"
 #include "welkin/prefilter/lagrange.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "welkin/base/parallel.h"
+#include "welkin/base/monitor.h"
 #include "welkin/prefilter/moments.h"
 
 namespace welkin::prefilter {

@@ -1,4 +1,5 @@
 #include "welkin/prefilter/spline_grid.h"
+#include "welkin/base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

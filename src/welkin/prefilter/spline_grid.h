@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "welkin/base/parallel.h"
+#include "welkin/base/monitor.h"
 #include "welkin/map/map.h"
 
 /// A smooth function on a lat-long grid, read by a cubic spline.

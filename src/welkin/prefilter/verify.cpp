@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/map/borders.h"
 #include "welkin/prefilter/reference.h"
 #include "welkin/prefilter/verify_energy.h"
@@ -254,14 +256,15 @@ void check_verifiable(const PrefilterShape& source) {
   const std::int64_t texels =
       std::int64_t{source.parameterization.charts()} * source.size.width * source.size.height;
   if (texels <= kMostVerifiedTexels) return;
-  throw Error("verify: " + std::to_string(texels) + " texels of source are more than the " +
-              std::to_string(kMostVerifiedTexels) + " that the reference has memory for");
+  throw Error(ErrorKind::too_large,
+              "verify: " + std::to_string(texels) + " texels of source are more than the " +
+                  std::to_string(kMostVerifiedTexels) + " that the reference has memory for");
 }
 
 std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
                                                 std::span<const PrefilterLevel> levels,
                                                 const VerifyOptions& options) {
-  assert(maps.size() == levels.size());
+  require(maps.size() == levels.size(), "verifying takes one map for each level");
   check_verifiable(shape_of(source));
   std::vector<LevelVerification> results(maps.size());
   if (maps.empty()) return results;

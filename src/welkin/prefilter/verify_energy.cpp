@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/base/parallel.h"
 #include "welkin/map/row_bands.h"
 #include "welkin/map/texel_points.h"
 

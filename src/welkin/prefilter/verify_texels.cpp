@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "welkin/base/parallel.h"
 #include "welkin/measure/luminance.h"
 
 namespace welkin::prefilter {

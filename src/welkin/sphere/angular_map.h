@@ -11,7 +11,7 @@ namespace welkin::sphere {
 struct AngularMap : WholeWorld {
   static constexpr const char* kName = "angular";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = false;
+  static constexpr Traits kTraits{.projection = Projection::disc};
   double aspect() const { return 1; }
 
   template <class T>

@@ -69,20 +69,6 @@ std::vector<Convention> make_conventions() {
   };
 }
 
-/// Panoramas: u = ½ − longitude/2π, the longitude from +Z toward +X.
-constexpr std::string_view kPanoramas[] = {"latlong",  "equal-area", "sky-latlong",
-                                           "cylinder", "mercator",   "openexr-latlong"};
-/// Discs seen from inside, +Z at the centre.
-constexpr std::string_view kDiscs[] = {"angular", "fisheye-equidistant", "fisheye-equisolid",
-                                       "fisheye-orthographic", "fisheye-stereographic"};
-/// Pictures that no program has a convention for.
-constexpr std::string_view kFixed[] = {"sphere", "mirror-ball", "half-cube"};
-
-template <std::size_t N>
-bool holds(const std::string_view (&names)[N], const std::string& name) {
-  return std::find(names, names + N, name) != names + N;
-}
-
 }  // namespace
 
 const std::vector<Convention>& conventions() {
@@ -96,15 +82,21 @@ const Convention& convention_from_name(std::string_view name) {
     if (each.name == name) return each;
     names.push_back(each.name);
   }
-  throw Error(unknown_name("convention", name, names));
+  throw Error(ErrorKind::bad_request, unknown_name("convention", name, names));
 }
 
 Matrix3 orientation_for(const Convention& convention, const sphere::AnyParameterization& parameterization) {
-  const std::string name = parameterization.name();
-  if (holds(kPanoramas, name)) return convention.latlong;
-  if (holds(kDiscs, name)) return convention.disc;
-  if (holds(kFixed, name)) return {};
-  return convention.lookup;
+  switch (parameterization.traits().projection) {
+    case sphere::Projection::panorama:
+      return convention.latlong;
+    case sphere::Projection::lookup:
+      return convention.lookup;
+    case sphere::Projection::disc:
+      return convention.disc;
+    case sphere::Projection::unturned:
+      break;
+  }
+  return {};
 }
 
 }  // namespace welkin

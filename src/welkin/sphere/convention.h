@@ -16,12 +16,12 @@ namespace welkin {
 struct Convention {
   std::string name;
   std::string description;
-  /// For panoramas (latlong, equal-area, sky-latlong, cylinder, mercator, openexr-latlong): a turn about +Y,
-  /// since up stays up and a picture is never mirrored.
+  /// For panoramas (Projection::panorama): a turn about +Y, since up stays up and a picture is never
+  /// mirrored.
   Matrix3 latlong;
-  /// For maps that shaders look up by coordinates (cubes, octahedra, paraboloids, healpix): the coordinates
-  /// that the program looks a cube map up with. A reflection (determinant −1) where they are left-handed;
-  /// identity for a program without cube maps.
+  /// For maps that shaders look up by coordinates (Projection::lookup: cubes, octahedra, paraboloids…): the
+  /// coordinates that the program looks a cube map up with. A reflection (determinant −1) where they are
+  /// left-handed; identity for a program without cube maps.
   Matrix3 lookup;
   /// For angular and fisheye pictures: a turn, as `latlong`.
   Matrix3 disc;
@@ -35,8 +35,8 @@ const std::vector<Convention>& conventions();
 /// Throws Error for a name that conventions() lacks; the message suggests the nearest.
 const Convention& convention_from_name(std::string_view name);
 
-/// The orientation of a map of this parameterization in a file of this convention. Identity for photographs
-/// of balls (sphere, mirror-ball) and the half-cube, which no preset turns.
+/// The orientation of a map of this parameterization in a file of this convention. Identity for those that
+/// no program has a convention for (Projection::unturned: photographs of balls, the half-cube).
 Matrix3 orientation_for(const Convention& convention, const sphere::AnyParameterization& parameterization);
 
 }  // namespace welkin

@@ -48,7 +48,7 @@ ChartPoint<T> cube_face_of(const Vec3<T>& d) {
 struct Cube : WholeWorld {
   static constexpr const char* kName = "cube";
   static constexpr int kCharts = 6;
-  static constexpr bool kDensityByRow = false;
+  static constexpr Traits kTraits{.projection = Projection::lookup, .cube_faces = true, .cube_texture = true};
   double aspect() const { return 1; }
 
   template <class T>

@@ -11,7 +11,7 @@ namespace welkin::sphere {
 struct Cylinder {
   static constexpr const char* kName = "cylinder";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = true;
+  static constexpr Traits kTraits{.projection = Projection::panorama, .density_by_row = true};
   double fov = 90;
 
   explicit Cylinder(double fov_degrees = 90) : fov(fov_degrees) { update(); }

@@ -11,7 +11,7 @@ namespace welkin::sphere {
 struct EquiAngularCube : WholeWorld {
   static constexpr const char* kName = "eac";
   static constexpr int kCharts = 6;
-  static constexpr bool kDensityByRow = false;
+  static constexpr Traits kTraits{.projection = Projection::lookup, .cube_faces = true};
   double aspect() const { return 1; }
 
   template <class T>

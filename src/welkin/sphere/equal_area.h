@@ -11,7 +11,8 @@ namespace welkin::sphere {
 struct EqualArea : WholeWorld {
   static constexpr const char* kName = "equal-area";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = true;
+  static constexpr Traits kTraits{
+      .projection = Projection::panorama, .density_by_row = true, .free_aspect = true};
   double aspect() const { return kPi; }
 
   /// cos(latitude) = √(1 − y²) = 2√(v (1 − v)), negative past a pole.

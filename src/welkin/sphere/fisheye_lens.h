@@ -18,7 +18,7 @@ namespace welkin::sphere {
 template <class Lens>
 struct Fisheye {
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = false;
+  static constexpr Traits kTraits{.projection = Projection::disc};
   double fov = 180;
 
   explicit Fisheye(double fov_degrees = 180) : fov(fov_degrees) { update(); }

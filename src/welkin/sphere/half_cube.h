@@ -12,7 +12,6 @@ namespace welkin::sphere {
 struct HalfCube {
   static constexpr const char* kName = "half-cube";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = false;
   double aspect() const { return 1; }
 
   template <class T>

@@ -16,7 +16,8 @@ namespace welkin::sphere {
 struct Healpix : WholeWorld {
   static constexpr const char* kName = "healpix";
   static constexpr int kCharts = 12;
-  static constexpr bool kDensityByRow = true;
+  static constexpr Traits kTraits{
+      .projection = Projection::lookup, .density_by_row = true, .grid_columns = 4};
   double aspect() const { return 1; }
 
   template <class T>

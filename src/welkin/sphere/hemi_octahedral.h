@@ -11,7 +11,7 @@ namespace welkin::sphere {
 struct HemiOctahedral {
   static constexpr const char* kName = "hemi-octahedral";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = false;
+  static constexpr Traits kTraits{.projection = Projection::lookup};
   double aspect() const { return 1; }
 
   template <class T>

@@ -10,7 +10,8 @@ namespace welkin::sphere {
 struct LatLong : WholeWorld {
   static constexpr const char* kName = "latlong";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = true;
+  static constexpr Traits kTraits{
+      .projection = Projection::panorama, .density_by_row = true, .latlong_grid = true};
   double aspect() const { return 2; }
 
   template <class T>

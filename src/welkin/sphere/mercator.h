@@ -12,7 +12,7 @@ namespace welkin::sphere {
 struct Mercator {
   static constexpr const char* kName = "mercator";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = true;
+  static constexpr Traits kTraits{.projection = Projection::panorama, .density_by_row = true};
   static constexpr double kSquareFov = 170.1022575596132;  ///< 2 atan(sinh π), degrees
   double fov = kSquareFov;
 

@@ -19,7 +19,6 @@ namespace welkin::sphere {
 struct MirrorBall {
   static constexpr const char* kName = "mirror-ball";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = false;
   double distance = std::numeric_limits<double>::infinity();
 
   explicit MirrorBall(double distance_in_radii = std::numeric_limits<double>::infinity())

@@ -12,7 +12,7 @@ namespace welkin::sphere {
 struct Octahedral : WholeWorld {
   static constexpr const char* kName = "octahedral";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = false;
+  static constexpr Traits kTraits{.projection = Projection::lookup};
   double aspect() const { return 1; }
 
   template <class T>

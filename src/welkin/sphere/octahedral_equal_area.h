@@ -12,7 +12,7 @@ namespace welkin::sphere {
 struct OctahedralEqualArea : WholeWorld {
   static constexpr const char* kName = "octahedral-equal-area";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = true;
+  static constexpr Traits kTraits{.projection = Projection::lookup, .density_by_row = true};
   double aspect() const { return 1; }
 
   template <class T>

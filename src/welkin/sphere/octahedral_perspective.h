@@ -18,8 +18,8 @@ namespace welkin::sphere {
 struct OctahedralPerspective : WholeWorld {
   static constexpr const char* kName = "octahedral-perspective";
   static constexpr int kCharts = 8;
-  static constexpr bool kDensityByRow = false;
-  static constexpr bool kFilledToEdges = true;
+  static constexpr Traits kTraits{
+      .projection = Projection::lookup, .filled_to_edges = true, .grid_columns = 4};
   double aspect() const { return 1.1547005383792517; }
 
   template <class T>

@@ -13,7 +13,7 @@ namespace welkin::sphere {
 struct OctahedralRect : WholeWorld {
   static constexpr const char* kName = "octahedral-rect";
   static constexpr int kCharts = 2;
-  static constexpr bool kDensityByRow = false;
+  static constexpr Traits kTraits{.projection = Projection::lookup};
   double aspect() const { return 1; }
 
   template <class T>

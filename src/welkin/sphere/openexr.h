@@ -12,7 +12,6 @@ namespace welkin::sphere {
 template <class P>
 struct EdgeCentred {
   static constexpr int kCharts = P::kCharts;
-  static constexpr bool kDensityByRow = false;
   P inner;
   double width = 1024;
   double height = 512;
@@ -71,11 +70,18 @@ struct EdgeCentred {
 /// The lat-long of EXR files with `envmap = latlong`.
 struct OpenExrLatLong : EdgeCentred<LatLong> {
   static constexpr const char* kName = "openexr-latlong";
+  static constexpr Traits kTraits{
+      .projection = Projection::panorama, .follows_size = true, .envmap = "latlong"};
 };
 
 /// The cube of EXR files with `envmap = cube`; its layout is `openexr`.
 struct OpenExrCube : EdgeCentred<Cube> {
   static constexpr const char* kName = "openexr-cube";
+  static constexpr Traits kTraits{.projection = Projection::lookup,
+                                  .follows_size = true,
+                                  .cube_faces = true,
+                                  .layout = "openexr",
+                                  .envmap = "cube"};
   OpenExrCube() { width = height = 512; }
 };
 

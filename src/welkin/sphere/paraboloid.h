@@ -14,8 +14,7 @@ namespace welkin::sphere {
 struct DualParaboloid : WholeWorld {
   static constexpr const char* kName = "paraboloid";
   static constexpr int kCharts = 2;
-  static constexpr bool kDensityByRow = false;
-  static constexpr bool kFilledToEdges = true;
+  static constexpr Traits kTraits{.projection = Projection::lookup, .filled_to_edges = true};
   double aspect() const { return 1; }
 
   /// d = (x, y, f)/|(x, y, f)|, whose length is ½(1 + r²).

@@ -3,6 +3,7 @@
 #include <concepts>
 
 #include "welkin/math/vec.h"
+#include "welkin/sphere/traits.h"
 
 namespace welkin::sphere {
 
@@ -20,8 +21,7 @@ struct ChartPoint {
 ///     struct Name {
 ///       static constexpr const char* kName = "name";
 ///       static constexpr int kCharts = 1;             // square domains [0,1]²
-///       static constexpr bool kDensityByRow = false;  // solid_angle_density depends on v alone
-///       static constexpr bool kFilledToEdges = true;  // optional: pictures go on outside the valid places
+///       static constexpr Traits kTraits{…};           // optional: what others need to know of it (traits.h)
 ///       double aspect() const;                        // width / height of a chart with square texels
 ///
 ///       // Unit direction at (u, v). Defined on the chart and, continuously, in a margin of a whole chart width
@@ -52,7 +52,6 @@ template <class P>
 concept Parameterization = requires(const P& p, int chart, double x, const Vec3<double>& d) {
   { P::kName } -> std::convertible_to<const char*>;
   { P::kCharts } -> std::convertible_to<int>;
-  { P::kDensityByRow } -> std::convertible_to<bool>;
   { p.aspect() } -> std::convertible_to<double>;
   { p.to_sphere(chart, x, x) } -> std::same_as<Vec3<double>>;
   { p.from_sphere(d) } -> std::same_as<ChartPoint<double>>;
@@ -61,6 +60,16 @@ concept Parameterization = requires(const P& p, int chart, double x, const Vec3<
   { p.covers(d) } -> std::same_as<bool>;
   { p.coverage() } -> std::convertible_to<double>;
 };
+
+/// The traits of a parameterization: its own, or the defaults.
+template <class P>
+constexpr Traits traits_of() {
+  if constexpr (requires { P::kTraits; }) {
+    return P::kTraits;
+  } else {
+    return {};
+  }
+}
 
 /// For a parameterization whose charts are full and cover the whole sphere: inherit these.
 struct WholeWorld {

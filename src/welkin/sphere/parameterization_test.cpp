@@ -106,7 +106,7 @@ TYPED_TEST(ParameterizationTest, DensityIsFiniteAndNeverNegativeOnTheWholeChart)
 
 TYPED_TEST(ParameterizationTest, DensityByRowDependsOnTheRowAlone) {
   const TypeParam p;
-  if (!TypeParam::kDensityByRow) return;
+  if (!traits_of<TypeParam>().density_by_row) return;
   for (const Place& at : random_places<TypeParam>(200, 0.01, 0.99)) {
     ASSERT_NEAR(p.solid_angle_density(at.chart, at.u, at.v), p.solid_angle_density(at.chart, 0.5, at.v),
                 1e-12);

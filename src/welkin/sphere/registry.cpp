@@ -1,101 +1,20 @@
 #include "welkin/sphere/registry.h"
 
 #include <algorithm>
+#include <mutex>
+#include <shared_mutex>
 
 #include "welkin/base/cpu.h"
 #include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
 #include "welkin/sphere/all.h"
+#include "welkin/sphere/custom.h"
 
 namespace welkin::sphere {
 
-/// What AnyParameterization forwards to: one derived class per registered struct.
-class AnyParameterization::Model {
- public:
-  virtual ~Model() = default;
-  virtual std::string name() const = 0;
-  virtual std::vector<Parameter> parameters() const = 0;
-  virtual bool set(std::string_view parameter, double value) = 0;
-  virtual std::unique_ptr<Model> with_defaults() const = 0;
-  virtual int charts() const = 0;
-  virtual double aspect() const = 0;
-  virtual double coverage() const = 0;
-  virtual bool density_by_row() const = 0;
-  virtual bool filled_to_edges() const = 0;
-  virtual Vec3d to_sphere(int chart, double u, double v) const = 0;
-  virtual ChartPoint<double> from_sphere(const Vec3d& d) const = 0;
-  virtual double solid_angle_density(int chart, double u, double v) const = 0;
-  virtual bool valid(int chart, double u, double v) const = 0;
-  virtual bool covers(const Vec3d& d) const = 0;
-  virtual const void* self() const = 0;
-
-  const Kernels* kernels = nullptr;
-};
+AnyParameterization::Model::~Model() = default;
 
 namespace {
-
-template <class P>
-concept HasParameters = requires(P& p) {
-  p.visit_parameters([](auto&&...) {});
-};
-
-template <class P>
-class ModelOf final : public AnyParameterization::Model {
- public:
-  std::string name() const override { return P::kName; }
-
-  std::vector<Parameter> parameters() const override {
-    std::vector<Parameter> list;
-    if constexpr (HasParameters<P>) {
-      P copy = p_;
-      copy.visit_parameters(
-          [&](const char* name, double& value, double lowest, double highest, const char* text) {
-            list.push_back({name, value, lowest, highest, text});
-          });
-    }
-    return list;
-  }
-
-  bool set([[maybe_unused]] std::string_view parameter, [[maybe_unused]] double value) override {
-    bool found = false;
-    if constexpr (HasParameters<P>) {
-      p_.visit_parameters([&](const char* name, double& field, double, double, const char*) {
-        if (parameter == name) {
-          field = value;
-          found = true;
-        }
-      });
-      p_.update();
-    }
-    return found;
-  }
-
-  std::unique_ptr<Model> with_defaults() const override {
-    auto fresh = std::make_unique<ModelOf>();
-    fresh->kernels = kernels;
-    return fresh;
-  }
-
-  int charts() const override { return P::kCharts; }
-  double aspect() const override { return p_.aspect(); }
-  double coverage() const override { return p_.coverage(); }
-  bool density_by_row() const override { return P::kDensityByRow; }
-  bool filled_to_edges() const override {
-    if constexpr (requires { P::kFilledToEdges; }) return P::kFilledToEdges;
-    return false;
-  }
-  Vec3d to_sphere(int chart, double u, double v) const override { return p_.to_sphere(chart, u, v); }
-  ChartPoint<double> from_sphere(const Vec3d& d) const override { return p_.from_sphere(d); }
-  double solid_angle_density(int chart, double u, double v) const override {
-    return p_.solid_angle_density(chart, u, v);
-  }
-  bool valid(int chart, double u, double v) const override { return p_.valid(chart, u, v); }
-  bool covers(const Vec3d& d) const override { return p_.covers(d); }
-  const void* self() const override { return &p_; }
-
- private:
-  P p_;
-};
 
 const Kernels& best_kernels(std::size_t index) {
 #ifdef WELKIN_HAS_AVX2
@@ -112,9 +31,48 @@ std::vector<std::unique_ptr<AnyParameterization::Model>> make_models(TypeList<P.
   return models;
 }
 
-const std::vector<std::unique_ptr<AnyParameterization::Model>>& models() {
-  static const auto all = make_models(AllParameterizations{});
-  return all;
+/// The built-in ones, and those that were added.
+class Registry {
+ public:
+  static Registry& instance() {
+    static Registry registry;
+    return registry;
+  }
+
+  /// None when there is none of that name.
+  std::shared_ptr<const AnyParameterization::Model> find(std::string_view name) const {
+    const std::shared_lock lock(mutex_);
+    const auto found =
+        std::find_if(models_.begin(), models_.end(), [&](const auto& each) { return each->name() == name; });
+    return found == models_.end() ? nullptr : *found;
+  }
+  std::vector<std::string> names() const {
+    const std::shared_lock lock(mutex_);
+    std::vector<std::string> list;
+    for (const auto& model : models_) list.push_back(model->name());
+    return list;
+  }
+  /// False when the name is taken.
+  bool add(std::shared_ptr<const AnyParameterization::Model> model) {
+    const std::unique_lock lock(mutex_);
+    const std::string name = model->name();
+    if (std::any_of(models_.begin(), models_.end(), [&](const auto& each) { return each->name() == name; }))
+      return false;
+    models_.push_back(std::move(model));
+    return true;
+  }
+
+ private:
+  Registry() {
+    for (auto& model : make_models(AllParameterizations{})) models_.push_back(std::move(model));
+  }
+
+  mutable std::shared_mutex mutex_;
+  std::vector<std::shared_ptr<const AnyParameterization::Model>> models_;
+};
+
+void check_chart(const AnyParameterization::Model& model, int chart) {
+  require(chart >= 0 && chart < model.charts(), "the parameterization has no chart of that number");
 }
 
 void set_parameter(AnyParameterization::Model& model, std::string_view assignment) {
@@ -124,35 +82,48 @@ void set_parameter(AnyParameterization::Model& model, std::string_view assignmen
 
 }  // namespace
 
-const std::vector<std::string>& parameterization_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const auto& model : models()) list.push_back(model->name());
-    return list;
-  }();
-  return names;
+std::vector<std::string> parameterization_names() {
+  return Registry::instance().names();
 }
 
 AnyParameterization AnyParameterization::make(std::string_view spec) {
   const std::size_t comma = spec.find(',');
   const std::string_view name = spec.substr(0, comma);
-  for (const auto& model : models()) {
-    if (model->name() != name) continue;
-    std::unique_ptr<Model> made = model->with_defaults();
-    std::string_view rest = comma == std::string_view::npos ? std::string_view{} : spec.substr(comma + 1);
-    while (!rest.empty()) {
-      const std::size_t next = rest.find(',');
-      set_parameter(*made, rest.substr(0, next));
-      rest = next == std::string_view::npos ? std::string_view{} : rest.substr(next + 1);
-    }
-    return AnyParameterization(std::shared_ptr<const Model>(std::move(made)));
+  const std::shared_ptr<const Model> prototype = Registry::instance().find(name);
+  if (prototype == nullptr)
+    throw Error(ErrorKind::bad_request, unknown_name("parameterization", name, parameterization_names()));
+  std::unique_ptr<Model> made = prototype->with_defaults();
+  std::string_view rest = comma == std::string_view::npos ? std::string_view{} : spec.substr(comma + 1);
+  while (!rest.empty()) {
+    const std::size_t next = rest.find(',');
+    set_parameter(*made, rest.substr(0, next));
+    rest = next == std::string_view::npos ? std::string_view{} : rest.substr(next + 1);
   }
-  throw Error(unknown_name("parameterization", name, parameterization_names()));
+  return AnyParameterization(std::shared_ptr<const Model>(std::move(made)));
+}
+
+AnyParameterization AnyParameterization::from_model(std::shared_ptr<const Model> model) {
+  require(model != nullptr, "a parameterization needs a model");
+  require(model->charts() > 0, "a parameterization has at least one chart");
+  return AnyParameterization(std::move(model));
+}
+
+void AnyParameterization::add(const AnyParameterization& parameterization) {
+  const std::string name = parameterization.name();
+  const bool sound = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+  if (!sound) {
+    throw Error(
+        ErrorKind::bad_request,
+        "the name '" + name + "' of a parameterization has characters other than a–z, 0–9 and hyphens");
+  }
+  if (!Registry::instance().add(parameterization.model_))
+    throw Error(ErrorKind::bad_request, "there is a parameterization called '" + name + "' already");
 }
 
 AnyParameterization AnyParameterization::at_size(int width, int height) const {
-  const std::vector<Parameter> now = parameters();
-  if (now.size() != 2 || now[0].name != "width" || now[1].name != "height") return *this;
+  if (!traits().follows_size) return *this;
   std::unique_ptr<Model> made = model_->with_defaults();
   made->set("width", std::max(width, 2));
   made->set("height", std::max(height, 2));
@@ -185,12 +156,8 @@ double AnyParameterization::aspect() const {
 double AnyParameterization::coverage() const {
   return model_->coverage();
 }
-bool AnyParameterization::density_by_row() const {
-  return model_->density_by_row();
-}
-
-bool AnyParameterization::filled_to_edges() const {
-  return model_->filled_to_edges();
+const Traits& AnyParameterization::traits() const {
+  return model_->traits();
 }
 
 bool AnyParameterization::full_charts() const {
@@ -206,15 +173,18 @@ bool AnyParameterization::full_charts() const {
 }
 
 Vec3d AnyParameterization::to_sphere(int chart, double u, double v) const {
+  check_chart(*model_, chart);
   return model_->to_sphere(chart, u, v);
 }
 ChartPoint<double> AnyParameterization::from_sphere(const Vec3d& d) const {
   return model_->from_sphere(d);
 }
 double AnyParameterization::solid_angle_density(int chart, double u, double v) const {
+  check_chart(*model_, chart);
   return model_->solid_angle_density(chart, u, v);
 }
 bool AnyParameterization::valid(int chart, double u, double v) const {
+  check_chart(*model_, chart);
   return model_->valid(chart, u, v);
 }
 bool AnyParameterization::covers(const Vec3d& d) const {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/base/parameter.h"
 #include "welkin/sphere/kernels.h"
 #include "welkin/sphere/parameterization.h"
@@ -14,7 +15,7 @@ namespace welkin::sphere {
 /// One of the registered parameterizations, chosen by name at run time, with its parameters. Cheap to copy;
 /// never changes; safe from many threads. Double-precision functions are the reference; `kernels` are the
 /// fast ones.
-class AnyParameterization {
+class WELKIN_API AnyParameterization {
  public:
   /// By name, with parameters: `latlong`, `fisheye-equidistant,fov=200`. Throws Error: unknown names (the
   /// nearest is suggested) and values out of range.
@@ -33,11 +34,10 @@ class AnyParameterization {
   double aspect() const;    ///< width / height of a chart with square texels
   double coverage() const;  ///< sr
   bool whole_world() const { return coverage() > 4 * kPi * (1 - 1e-9); }
-  bool density_by_row() const;  ///< the density depends on v alone
-  bool full_charts() const;     ///< every place of every chart is valid: no discs, no triangles
-  /// Texels outside the valid places show what their direction has, as a paraboloid's corners do, not
-  /// nothing.
-  bool filled_to_edges() const;
+  const Traits& traits() const;
+  bool density_by_row() const { return traits().density_by_row; }
+  bool full_charts() const;  ///< every place of every chart is valid: no discs, no triangles
+  bool filled_to_edges() const { return traits().filled_to_edges; }
 
   // See the concept in parameterization.h.
   Vec3d to_sphere(int chart, double u, double v) const;
@@ -56,13 +56,16 @@ class AnyParameterization {
   }
 
   class Model;
+  /// See custom.h.
+  static AnyParameterization from_model(std::shared_ptr<const Model> model);
+  static void add(const AnyParameterization& parameterization);
 
  private:
   explicit AnyParameterization(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
   std::shared_ptr<const Model> model_;
 };
 
-/// Names of all registered parameterizations, in order of registration.
-const std::vector<std::string>& parameterization_names();
+/// Names of all registered parameterizations, in order of registration: the built-in ones first.
+WELKIN_API std::vector<std::string> parameterization_names();
 
 }  // namespace welkin::sphere

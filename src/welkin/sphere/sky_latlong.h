@@ -9,7 +9,7 @@ namespace welkin::sphere {
 struct SkyLatLong {
   static constexpr const char* kName = "sky-latlong";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = true;
+  static constexpr Traits kTraits{.projection = Projection::panorama, .density_by_row = true};
   double aspect() const { return 4; }
 
   template <class T>

@@ -16,7 +16,7 @@ namespace welkin::sphere {
 struct SphereMap : WholeWorld {
   static constexpr const char* kName = "sphere";
   static constexpr int kCharts = 1;
-  static constexpr bool kDensityByRow = true;
+  static constexpr Traits kTraits{.density_by_row = true};
   double aspect() const { return 1; }
 
   /// θ = 2α with sin α = r.

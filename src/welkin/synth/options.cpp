@@ -11,7 +11,7 @@ namespace {
   std::ostringstream message;
   message << "synth " << range.map << ": " << range.option << " must be " << wanted << " from " << range.low
           << " to " << range.high << ", not " << value;
-  throw Error(message.str());
+  throw Error(ErrorKind::bad_request, message.str());
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/map/borders.h"
 
 namespace welkin {
@@ -61,11 +63,12 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
 Map render(const synth::Radiance& radiance, const sphere::AnyParameterization& parameterization, int width,
            int height, const RenderOptions& options) {
   if (options.samples < 1 || options.samples > kMostSamples) {
-    throw Error("samples along a texel's side must be 1 to " + std::to_string(kMostSamples) + ", not " +
-                std::to_string(options.samples));
+    throw Error(ErrorKind::bad_request, "samples along a texel's side must be 1 to " +
+                                            std::to_string(kMostSamples) + ", not " +
+                                            std::to_string(options.samples));
   }
   if (!is_orthonormal(options.orientation))
-    throw Error("the orientation of a map must be a rotation or a reflection");
+    throw Error(ErrorKind::bad_request, "the orientation of a map must be a rotation or a reflection");
   Map map(parameterization, width, height, 3);
   map.orientation = options.orientation;
   const Matrix3 to_world = transpose(options.orientation);

@@ -31,7 +31,7 @@ const Entry& find(std::string_view name) {
   for (const Entry& entry : kMaps) {
     if (entry.name == name) return entry;
   }
-  throw Error(unknown_name("built-in map", name, names()));
+  throw Error(ErrorKind::bad_request, unknown_name("built-in map", name, names()));
 }
 
 }  // namespace

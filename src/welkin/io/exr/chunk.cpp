@@ -28,7 +28,7 @@ void expand_runs(std::span<const std::byte> packed, std::span<std::byte> to) {
     const int count = static_cast<std::int8_t>(packed[in++]);
     const auto length = static_cast<std::size_t>(count < 0 ? -count : count + 1);
     if ((count < 0 ? length : 1) > packed.size() - in || length > to.size() - out)
-      throw Error("run-length data is damaged");
+      throw Error(ErrorKind::damaged, "run-length data is damaged");
     if (count < 0) {
       std::memcpy(to.data() + out, packed.data() + in, length);
       in += length;
@@ -37,7 +37,7 @@ void expand_runs(std::span<const std::byte> packed, std::span<std::byte> to) {
     }
     out += length;
   }
-  if (out != to.size()) throw Error("run-length data ends early");
+  if (out != to.size()) throw Error(ErrorKind::damaged, "run-length data ends early");
 }
 
 /// Binary16 to binary32. The exponent is re-biased by an addition; a subnormal becomes a normal number by
@@ -123,7 +123,7 @@ ChunkUnpacker::ChunkUnpacker() : inflater_(libdeflate_alloc_decompressor()) {
 std::span<const std::byte> ChunkUnpacker::unpack(Compression compression, std::span<const std::byte> packed,
                                                  std::size_t size) {
   if (packed.size() == size) return packed;  // a chunk that would not shrink is stored as it is
-  if (compression == Compression::none) throw Error("the chunk has too few bytes");
+  if (compression == Compression::none) throw Error(ErrorKind::damaged, "the chunk has too few bytes");
   if (coded_.size() < size) {
     coded_.resize(size);
     bytes_.resize(size);
@@ -136,8 +136,8 @@ std::span<const std::byte> ChunkUnpacker::unpack(Compression compression, std::s
     const auto result = libdeflate_zlib_decompress(inflater_.get(), packed.data(), packed.size(),
                                                    coded.data(), coded.size(), &inflated);
     if (result == LIBDEFLATE_SHORT_OUTPUT || (result == LIBDEFLATE_SUCCESS && inflated != size))
-      throw Error("deflated data ends early");
-    if (result != LIBDEFLATE_SUCCESS) throw Error("deflated data is damaged");
+      throw Error(ErrorKind::damaged, "deflated data ends early");
+    if (result != LIBDEFLATE_SUCCESS) throw Error(ErrorKind::damaged, "deflated data is damaged");
   }
   undo_differences(coded);
   interleave_halves(coded, bytes);

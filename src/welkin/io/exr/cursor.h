@@ -55,7 +55,7 @@ class Cursor {
   }
 
   [[noreturn]] void fail(const std::string& cause) const {
-    throw Error(std::string(name_) + ": " + cause + " (byte " + std::to_string(offset_) + ")");
+    throw Error(ErrorKind::damaged, std::string(name_), cause + " (byte " + std::to_string(offset_) + ")");
   }
 
  private:

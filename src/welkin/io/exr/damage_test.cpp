@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/io/exr/exr_test_files.h"
 
 namespace welkin::io {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "welkin/base/error.h"
 #include "welkin/io/exr/attributes.h"
 #include "welkin/io/exr/cursor.h"
 
@@ -179,9 +180,10 @@ void place_table(const Source& source, Part& part, Cursor& cursor) {
     const auto offset = number_at<std::uint64_t>(source.bytes, part.table + i * sizeof(std::uint64_t));
     if (offset >= part.table + part.chunk_count * sizeof(std::uint64_t) && offset < source.bytes.size())
       continue;
-    throw Error(source.name + ": row " + std::to_string(part.chunk_window(i).min_y) +
-                (offset == 0 ? ": the chunk was never written" : ": the file ends before the chunk") +
-                " (byte " + std::to_string(offset) + ")");
+    throw Error(ErrorKind::damaged, source.name,
+                "row " + std::to_string(part.chunk_window(i).min_y) +
+                    (offset == 0 ? ": the chunk was never written" : ": the file ends before the chunk") +
+                    " (byte " + std::to_string(offset) + ")");
   }
 }
 
@@ -271,7 +273,7 @@ std::span<const std::byte> chunk_bytes(std::span<const std::byte> bytes, const F
   const Part& part = file.parts[part_index];
   Cursor cursor(bytes, "chunk", number_at<std::uint64_t>(bytes, part.table + index * sizeof(std::uint64_t)));
   const std::size_t header = (file.multi_part ? 4u : 0u) + (part.tiled ? 20u : 8u);
-  if (cursor.left() < header) throw Error("the file ends early");
+  if (cursor.left() < header) throw Error(ErrorKind::damaged, "the file ends early");
   bool expected = !file.multi_part || cursor.take<std::uint32_t>() == part_index;
   const Window window = part.chunk_window(index);
   if (part.tiled) {
@@ -281,15 +283,19 @@ std::span<const std::byte> chunk_bytes(std::span<const std::byte> bytes, const F
   } else {
     expected &= cursor.take<std::int32_t>() == window.min_y;
   }
-  if (!expected) throw Error("the chunk is of another place (byte " + std::to_string(cursor.offset()) + ")");
+  if (!expected)
+    throw Error(ErrorKind::damaged,
+                "the chunk is of another place (byte " + std::to_string(cursor.offset()) + ")");
   const auto size = cursor.take<std::int32_t>();
   if (size <= 0 || static_cast<std::size_t>(size) > cursor.left())
-    throw Error("the chunk's size " + std::to_string(size) + " passes the file's end (byte " +
-                std::to_string(cursor.offset()) + ")");
+    throw Error(ErrorKind::damaged, "the chunk's size " + std::to_string(size) +
+                                        " passes the file's end (byte " + std::to_string(cursor.offset()) +
+                                        ")");
   const auto most = static_cast<std::uint64_t>(window.width()) * static_cast<std::uint64_t>(window.height()) *
                     part.bytes_per_pixel();
   if (static_cast<std::uint64_t>(size) > most)
-    throw Error("the chunk's size " + std::to_string(size) + " is more than its pixels need");
+    throw Error(ErrorKind::too_large,
+                "the chunk's size " + std::to_string(size) + " is more than its pixels need");
   return cursor.take_bytes(static_cast<std::size_t>(size));
 }
 
@@ -301,13 +307,21 @@ int lines_of_chunk(Compression compression) {
   return facts_of(compression).lines;
 }
 
+std::vector<std::string> compression_names() {
+  std::vector<std::string> names{"zip"};
+  for (const CompressionFacts& each : kCompressions) {
+    if (each.name != names.front()) names.emplace_back(each.name);
+  }
+  return names;
+}
+
 Compression compression_named(std::string_view name) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < kCompressions.size(); ++i) {
     if (kCompressions[i].name == name) return static_cast<Compression>(i);
     known.emplace_back(kCompressions[i].name);
   }
-  throw Error(unknown_name("EXR compression", name, known));
+  throw Error(ErrorKind::bad_request, unknown_name("EXR compression", name, known));
 }
 
 }  // namespace welkin::io::exr

@@ -110,4 +110,7 @@ int lines_of_chunk(Compression compression);
 /// Throws Error that lists the known names.
 Compression compression_named(std::string_view name);
 
+/// The names that compression_named takes, `zip` first.
+std::vector<std::string> compression_names();
+
 }  // namespace welkin::io::exr

@@ -76,18 +76,21 @@ std::vector<WritePart> ordered_levels(std::span<const WritePart> parts) {
     part.name.clear();
     const std::string name = "level " + std::to_string(i);
     if (part.layer != 0 || part.face != 0)
-      throw Error("EXR's levels are of one picture, not layers or faces");
+      throw Error(ErrorKind::unsupported, "EXR's levels are of one picture, not layers or faces");
     if (part.level != static_cast<int>(i))
-      throw Error(part.level < static_cast<int>(i) ? "two pictures for level " + std::to_string(part.level)
-                                                   : "no picture for " + name);
+      throw Error(ErrorKind::bad_request, part.level < static_cast<int>(i)
+                                              ? "two pictures for level " + std::to_string(part.level)
+                                              : "no picture for " + name);
     if (i == 0) continue;
     const ImageView<const float>& before = levels[i - 1].image;
     const int width = std::max(1, before.width / 2), height = std::max(1, before.height / 2);
-    if (before.width == 1 && before.height == 1) throw Error("levels after that of 1×1 texels");
+    if (before.width == 1 && before.height == 1)
+      throw Error(ErrorKind::bad_request, "levels after that of 1×1 texels");
     if (part.image.width != width || part.image.height != height)
-      throw Error(name + " is " + size_text(part.image.width, part.image.height) + ", not " +
-                  size_text(width, height));
-    if (part.channels != levels[0].channels) throw Error(name + " has other channels than level 0");
+      throw Error(ErrorKind::bad_request, name + " is " + size_text(part.image.width, part.image.height) +
+                                              ", not " + size_text(width, height));
+    if (part.channels != levels[0].channels)
+      throw Error(ErrorKind::bad_request, name + " has other channels than level 0");
   }
   return levels;
 }

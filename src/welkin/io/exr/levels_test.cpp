@@ -3,6 +3,7 @@
 #include <ImfTiledInputFile.h>
 
 #include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/io/exr/exr_test_files.h"
 #include "welkin/io/test_pictures.h"
 

@@ -26,7 +26,7 @@ class SpanStream final : public Imf::IStream {
 
   bool read(char to[], int count) override {
     if (count < 0 || offset_ > bytes_.size() || static_cast<std::size_t>(count) > bytes_.size() - offset_)
-      throw Error("the file ends early");
+      throw Error(ErrorKind::damaged, "the file ends early");
     std::memcpy(to, bytes_.data() + offset_, static_cast<std::size_t>(count));
     offset_ += static_cast<std::size_t>(count);
     return offset_ < bytes_.size();
@@ -60,7 +60,8 @@ void check_same(const Part& part, const Imf::Header& header) {
     same = index < part.channels.size() && part.channels[index].name == i.name() &&
            static_cast<int>(part.channels[index].type) == static_cast<int>(i.channel().type);
   }
-  if (!same || index != part.channels.size()) throw Error("the header contradicts itself");
+  if (!same || index != part.channels.size())
+    throw Error(ErrorKind::damaged, "the header contradicts itself");
 }
 
 }  // namespace
@@ -83,7 +84,8 @@ struct LibraryPart::State {
   State(std::span<const std::byte> bytes, const std::string& name, const File& parsed, std::size_t index)
       : part(parsed.parts[index]), stream(bytes, name), file(stream, 0, false) {
     const int number = static_cast<int>(index);
-    if (file.parts() != static_cast<int>(parsed.parts.size())) throw Error("the header contradicts itself");
+    if (file.parts() != static_cast<int>(parsed.parts.size()))
+      throw Error(ErrorKind::damaged, "the header contradicts itself");
     check_same(part, file.header(number));
     if (part.tiled) {
       tiles.emplace(file, number);
@@ -98,7 +100,8 @@ struct LibraryPart::State {
     window.max_x = part.data.max_x;
     if (level == 0) return window;
     const Window whole = part.level_window(level);
-    if (window_of(tiles->dataWindowForLevel(level)) != whole) throw Error("the header contradicts itself");
+    if (window_of(tiles->dataWindowForLevel(level)) != whole)
+      throw Error(ErrorKind::damaged, "the header contradicts itself");
     // The level's tiles lie where those of level 0 do, and there are no more of them.
     return intersection(window, whole);
   }
@@ -165,11 +168,13 @@ void LibraryPart::read(int level, std::uint64_t row, const Destination& destinat
 
 void read_luminance_chroma(std::span<const std::byte> bytes, const std::string& name, const File& file,
                            const Destination& destination, int& row) {
-  if (file.multi_part) throw Error("luminance and chroma channels are read in single-part files only");
+  if (file.multi_part)
+    throw Error(ErrorKind::unsupported, "luminance and chroma channels are read in single-part files only");
   const Part& part = file.parts[0];
   SpanStream stream(bytes, name);
   Imf::RgbaInputFile input(stream, 0);
-  if (window_of(input.dataWindow()) != part.data) throw Error("the header contradicts itself");
+  if (window_of(input.dataWindow()) != part.data)
+    throw Error(ErrorKind::damaged, "the header contradicts itself");
 
   std::vector<Imf::Rgba> line(static_cast<std::size_t>(part.data.width()));
   input.setFrameBuffer(line.data() - part.data.min_x, 1, 0);

@@ -165,7 +165,8 @@ WriteReport write_packed(Imf::OStream& stream, std::span<const Imf::Header> head
     layouts.emplace_back(part, type, compression);
     const auto line = static_cast<std::uint64_t>(part.image.width) * part.channels.size() * bytes_of(type);
     if (line * static_cast<std::uint64_t>(layouts.back().lines) > std::uint64_t{1} << 30)
-      throw Error("a chunk of " + std::to_string(layouts.back().lines) + " lines is more than 1 GiB");
+      throw Error(ErrorKind::too_large,
+                  "a chunk of " + std::to_string(layouts.back().lines) + " lines is more than 1 GiB");
   }
 
   // Headers, then room for the tables of chunks.

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "welkin/base/parallel.h"
 #include "welkin/io/exr/chunk.h"
 #include "welkin/io/exr/exr_test_files.h"
 

@@ -109,14 +109,16 @@ class ExrReader final : public Reader {
     }
   }
 
-  void read(std::size_t picture, std::span<const int> channels, ImageView<float> out) override {
+  void decode(std::size_t picture, std::span<const int> channels, ImageView<float> out) override {
     assert(picture < info_.parts.size());
     const PartInfo& info = info_.parts[picture];
     const std::size_t part_index = info_.levels > 1 ? 0 : picture;
     const Part& part = file_.parts[part_index];
     assert(out.width == info.width && out.height == info.height);
     assert(static_cast<std::size_t>(out.channels) == channels.size());
-    if (part.deep) throw Error(name_ + ": deep data cannot be read; flatten it to an ordinary image first");
+    if (part.deep)
+      throw Error(ErrorKind::unsupported, name_,
+                  "deep data cannot be read; flatten it to an ordinary image first");
 
     Destination destination{out, {}};
     const std::vector<int> order = reported_order(part);
@@ -161,7 +163,7 @@ class ExrReader final : public Reader {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      throw Error(name_ + ": row " + std::to_string(row) + ": " + cause_of(error));
+      throw Error(ErrorKind::damaged, name_, "row " + std::to_string(row) + ": " + cause_of(error));
     }
   }
 
@@ -218,7 +220,7 @@ class ExrReader final : public Reader {
           reader->read(level, row, destination);
         });
       } catch (const Error& error) {
-        throw Error(std::string(error.what()) + " (level " + std::to_string(level) + ")");
+        throw Error(error.kind(), error.file(), error.cause() + " (level " + std::to_string(level) + ")");
       }
     });
   }
@@ -248,7 +250,20 @@ std::unique_ptr<Reader> open_exr(const Source& source) {
 }  // namespace exr
 
 Format exr_format() {
-  return {"exr", {"exr"}, exr::is_exr, exr::open_exr, exr::write_exr};
+  return {{.format = "exr",
+           .title = "EXR",
+           .extensions = {"exr"},
+           .types = {PixelType::float32, PixelType::half, PixelType::uint32},
+           .compressions = exr::compression_names(),
+           .channels = Channels::any,
+           .pictures = true,
+           .levels = true,
+           .hdr = true,
+           .negative = true,
+           .attributes = true},
+          exr::is_exr,
+          exr::open_exr,
+          exr::write_exr};
 }
 
 }  // namespace welkin::io

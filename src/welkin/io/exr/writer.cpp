@@ -36,7 +36,7 @@ namespace {
 /// The library writes in pieces of a few bytes; the file gets them in larger ones.
 class FileStream final : public Imf::OStream {
  public:
-  explicit FileStream(OutputFile& file) : OStream("output"), file_(file), offset_(file.tell()) {}
+  explicit FileStream(ByteSink& file) : OStream("output"), file_(file), offset_(file.tell()) {}
 
   void write(const char data[], int size) override {
     const auto count = static_cast<std::size_t>(size);
@@ -61,7 +61,7 @@ class FileStream final : public Imf::OStream {
 
  private:
   static constexpr std::size_t kBuffer = 1 << 16;
-  OutputFile& file_;
+  ByteSink& file_;
   std::uint64_t offset_;
   std::vector<char> buffer_;
 };
@@ -94,20 +94,24 @@ StoredType stored_type(const WriteOptions& options) {
     case PixelType::r11g11b10:
       break;
   }
-  throw Error("EXR has no pixel type " + std::string(io::name_of(type)) + " (one of: half, float, uint32)");
+  throw Error(ErrorKind::unsupported,
+              "EXR has no pixel type " + std::string(io::name_of(type)) + " (one of: half, float, uint32)");
 }
 
 void check_names(std::span<const WritePart> parts) {
   constexpr std::size_t kLongest = 255;
   std::set<std::string> part_names;
   for (const WritePart& part : parts) {
-    if (parts.size() > 1 && part.name.empty()) throw Error("every part of a multi-part EXR needs a name");
-    if (!part_names.insert(part.name).second) throw Error("two parts are called '" + part.name + "'");
+    if (parts.size() > 1 && part.name.empty())
+      throw Error(ErrorKind::bad_request, "every part of a multi-part EXR needs a name");
+    if (!part_names.insert(part.name).second)
+      throw Error(ErrorKind::bad_request, "two parts are called '" + part.name + "'");
     std::set<std::string> channel_names;
     for (const std::string& name : part.channels) {
       if (name.empty() || name.size() > kLongest || name.find('\0') != std::string::npos)
-        throw Error("channel name '" + name + "' is not one of 1...255 characters");
-      if (!channel_names.insert(name).second) throw Error("two channels are called '" + name + "'");
+        throw Error(ErrorKind::bad_request, "channel name '" + name + "' is not one of 1...255 characters");
+      if (!channel_names.insert(name).second)
+        throw Error(ErrorKind::bad_request, "two channels are called '" + name + "'");
     }
   }
 }
@@ -119,12 +123,12 @@ Imath::Box2i box_of(int width, int height) {
 void insert_attributes(Imf::Header& header, const WriteOptions& options) {
   for (const auto& [name, text] : options.attributes) {
     if (name.empty() || name.size() > 255)
-      throw Error("attribute name '" + name + "' is not one of 1...255 characters");
+      throw Error(ErrorKind::bad_request, "attribute name '" + name + "' is not one of 1...255 characters");
     if (!is_reserved(name)) header.insert(name, Imf::StringAttribute(text));
   }
   if (!options.envmap) return;
   if (*options.envmap != "latlong" && *options.envmap != "cube")
-    throw Error("EXR's envmap is latlong or cube, not '" + *options.envmap + "'");
+    throw Error(ErrorKind::bad_request, "EXR's envmap is latlong or cube, not '" + *options.envmap + "'");
   Imf::addEnvmap(header, *options.envmap == "cube" ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
 }
 
@@ -212,7 +216,7 @@ WriteReport write_by_library(Imf::OStream& stream, const std::vector<Imf::Header
 
 }  // namespace
 
-WriteReport write_exr(OutputFile& file, std::span<const WritePart> all_parts, const WriteOptions& options) {
+WriteReport write_exr(ByteSink& file, std::span<const WritePart> all_parts, const WriteOptions& options) {
   assert(!all_parts.empty());
   const StoredType type = stored_type(options);
   std::vector<WritePart> levels;
@@ -235,7 +239,7 @@ WriteReport write_exr(OutputFile& file, std::span<const WritePart> all_parts, co
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw Error(cause_of(error));
+    throw Error(ErrorKind::system, cause_of(error));
   }
 }
 

@@ -37,9 +37,10 @@ class HdrReader : public Reader {
     const std::uint64_t least =
         static_cast<std::uint64_t>(header_.lines()) * least_hdr_line_bytes(header_.line_length());
     if (held < least) {
-      throw Error(source.name + ": ends early (byte " + std::to_string(source.bytes.size()) +
-                  "): " + std::to_string(header_.lines()) + " scan lines need at least " +
-                  std::to_string(least) + " bytes");
+      throw Error(ErrorKind::damaged, source.name,
+                  "ends early (byte " + std::to_string(source.bytes.size()) +
+                      "): " + std::to_string(header_.lines()) + " scan lines need at least " +
+                      std::to_string(least) + " bytes");
     }
     HdrCoding coding;
     line_end(0, header_.pixels_at, coding);
@@ -65,14 +66,15 @@ class HdrReader : public Reader {
                            coding == HdrCoding::flat ? "none" : "rle"});
   }
 
-  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override;
+  void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override;
 
  private:
   std::size_t line_end(int line, std::size_t at, HdrCoding& coding) const {
     try {
       return hdr_line_end(source_.bytes, at, header_.line_length(), coding);
     } catch (const Error& error) {
-      throw Error(source_.name + ": scan line " + std::to_string(line) + ": " + error.what());
+      throw Error(ErrorKind::damaged, source_.name,
+                  "scan line " + std::to_string(line) + ": " + error.what());
     }
   }
   void decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb,
@@ -113,7 +115,7 @@ void HdrReader::decode_line(const Batch::Line& stored, int line, HdrPlanes& plan
   decoder.decode(rgb, channels, length, first, step);
 }
 
-void HdrReader::read(std::size_t part, std::span<const int> channels, ImageView<float> out) {
+void HdrReader::decode(std::size_t part, std::span<const int> channels, ImageView<float> out) {
   assert(part == 0 && out.width == header_.width && out.height == header_.height);
   assert(channels.size() == static_cast<std::size_t>(out.channels));
   static_cast<void>(part);
@@ -156,7 +158,17 @@ std::unique_ptr<Reader> open_hdr(const Source& source) {
 }  // namespace
 
 Format hdr_format() {
-  return {"hdr", {"hdr"}, matches, open_hdr, write_hdr};
+  return {{.format = "hdr",
+           .title = "HDR",
+           .extensions = {"hdr"},
+           .types = {PixelType::float32},
+           .compressions = {"rle", "none"},
+           .lossless = false,
+           .hdr = true,
+           .attributes = true},
+          matches,
+          open_hdr,
+          write_hdr};
 }
 
 }  // namespace welkin::io

@@ -47,7 +47,8 @@ void parse_line(const Source& source, const std::string& line, HdrHeader& header
   const std::string value = equals == std::string::npos ? "" : trimmed(line.substr(equals + 1));
   if (name == "FORMAT") {
     if (value != "32-bit_rle_rgbe" && value != "32-bit_rle_xyze") {
-      throw Error(source.name + ": FORMAT=" + value + " is not a picture of RGBE or XYZE pixels");
+      throw Error(ErrorKind::unsupported, source.name,
+                  "FORMAT=" + value + " is not a picture of RGBE or XYZE pixels");
     }
     header.xyze = value == "32-bit_rle_xyze";
     return;
@@ -64,7 +65,8 @@ void parse_line(const Source& source, const std::string& line, HdrHeader& header
 /// `-Y 512 +X 1024`: the first axis is that of the scan lines' order.
 void parse_resolution(const Source& source, const std::string& line, HdrHeader& header) {
   const auto fail = [&] {
-    throw Error(source.name + ": the resolution line '" + line.substr(0, 80) + "' is malformed");
+    throw Error(ErrorKind::damaged, source.name,
+                "the resolution line '" + line.substr(0, 80) + "' is malformed");
   };
   std::istringstream stream(line);
   std::string axis[2];
@@ -102,7 +104,8 @@ HdrHeader parse_hdr_header(const Source& source) {
   const auto next_line = [&] {
     const std::size_t end = text.find('\n', at);
     if (end == std::string_view::npos) {
-      throw Error(source.name + ": the header does not end (byte " + std::to_string(text.size()) + ")");
+      throw Error(ErrorKind::damaged, source.name,
+                  "the header does not end (byte " + std::to_string(text.size()) + ")");
     }
     std::string line(text.substr(at, end - at));
     at = end + 1;

@@ -19,19 +19,19 @@ bool may_be_components(int length) {
 }
 
 [[noreturn]] void ends_early(std::size_t at) {
-  throw Error("ends early (byte " + std::to_string(at) + ")");
+  throw Error(ErrorKind::damaged, "ends early (byte " + std::to_string(at) + ")");
 }
 
 [[noreturn]] void overruns(std::size_t at) {
-  throw Error("a run passes the end of the line (byte " + std::to_string(at) + ")");
+  throw Error(ErrorKind::damaged, "a run passes the end of the line (byte " + std::to_string(at) + ")");
 }
 
 std::size_t components_end(std::span<const std::byte> bytes, std::size_t at, int length) {
   const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
   const int stored = data[at + 2] << 8 | data[at + 3];
   if (stored != length) {
-    throw Error("its length is given as " + std::to_string(stored) + ", not " + std::to_string(length) +
-                " (byte " + std::to_string(at) + ")");
+    throw Error(ErrorKind::damaged, "its length is given as " + std::to_string(stored) + ", not " +
+                                        std::to_string(length) + " (byte " + std::to_string(at) + ")");
   }
   at += 4;
   for (int component = 0; component < 4; ++component) {
@@ -40,7 +40,8 @@ std::size_t components_end(std::span<const std::byte> bytes, std::size_t at, int
       const int code = data[at];
       const bool run = code > kLongestLiteral;
       const int count = run ? code - kLongestLiteral : code;
-      if (count == 0) throw Error("a literal of length 0 (byte " + std::to_string(at) + ")");
+      if (count == 0)
+        throw Error(ErrorKind::damaged, "a literal of length 0 (byte " + std::to_string(at) + ")");
       if (count > left) overruns(at);
       left -= count;
       at += run ? 2 : 1 + static_cast<std::size_t>(count);
@@ -67,7 +68,8 @@ std::size_t flat_end(std::span<const std::byte> bytes, std::size_t at, int lengt
       continue;
     }
     coding = HdrCoding::old_runs;
-    if (left == length) throw Error("begins with a run of no pixel (byte " + std::to_string(at) + ")");
+    if (left == length)
+      throw Error(ErrorKind::damaged, "begins with a run of no pixel (byte " + std::to_string(at) + ")");
     if (shift > 24) overruns(at);
     left -= static_cast<std::int64_t>(pixel[3]) << shift;
     if (left < 0) overruns(at);

@@ -68,7 +68,7 @@ class RowEncoder {
 
 }  // namespace
 
-WriteReport write_hdr(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
+WriteReport write_hdr(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   static const std::string known[] = {"rle", "none"};
   static constexpr PixelType types[] = {PixelType::float32};
   const WritePart& part = only_part(parts, "HDR");

@@ -8,6 +8,6 @@ namespace welkin::io {
 /// the coding cannot have), rounded to nearest. Grey is stored three times. Values are radiance, so EXPOSURE,
 /// COLORCORR, FORMAT and PIXASPECT of the attributes, which describe the pixels of another file, are left
 /// out.
-WriteReport write_hdr(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
+WriteReport write_hdr(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
 
 }  // namespace welkin::io

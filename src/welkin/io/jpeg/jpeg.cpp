@@ -44,8 +44,9 @@ class Decoder {
   template <class Call>
   void guarded(Call call) {
     if (guarded_jpeg(failure_, call)) return;
-    throw Error(source_.name + ": " + failure_.text + " (byte " +
-                std::to_string(source_.bytes.size() - input_.bytes_in_buffer) + ")");
+    throw Error(ErrorKind::damaged, source_.name,
+                std::string(failure_.text) + " (byte " +
+                    std::to_string(source_.bytes.size() - input_.bytes_in_buffer) + ")");
   }
 
  private:
@@ -122,18 +123,20 @@ class JpegReader : public Reader {
         break;
       case JCS_CMYK:
       case JCS_YCCK:
-        throw Error(source_.name + ": a CMYK picture; save it as RGB");
+        throw Error(ErrorKind::unsupported, source_.name, "a CMYK picture; save it as RGB");
       default:
-        throw Error(source_.name + ": a JPEG of " + std::to_string(codec.num_components) +
-                    " components of unknown meaning");
+        throw Error(ErrorKind::unsupported, source_.name,
+                    "a JPEG of " + std::to_string(codec.num_components) + " components of unknown meaning");
     }
     check_size(source_, codec.image_width, codec.image_height, channels.size());
     // Huffman coding spends at least a bit on each block of 8×8 of the first component, which may be sampled
     // at a sixteenth of the picture's resolution.
     const std::uint64_t blocks = std::uint64_t{codec.image_width} * codec.image_height / (DCTSIZE2 * 16);
     if (codec.arith_code == FALSE && blocks / 8 > source_.bytes.size()) {
-      throw Error(source_.name + ": " + std::to_string(source_.bytes.size()) + " bytes cannot hold " +
-                  std::to_string(codec.image_width) + "×" + std::to_string(codec.image_height) + " pixels");
+      throw Error(ErrorKind::damaged, source_.name,
+                  std::to_string(source_.bytes.size()) + " bytes cannot hold " +
+                      std::to_string(codec.image_width) + "×" + std::to_string(codec.image_height) +
+                      " pixels");
     }
     info_.format = "jpeg";
     info_.bytes = source_.bytes.size();
@@ -146,7 +149,7 @@ class JpegReader : public Reader {
     }
   }
 
-  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
+  void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
     assert(part == 0 && out.width == info_.parts[0].width && out.height == info_.parts[0].height);
     assert(channels.size() == static_cast<std::size_t>(out.channels));
     static_cast<void>(part);
@@ -197,7 +200,17 @@ std::unique_ptr<Reader> open_jpeg(const Source& source) {
 }
 
 Format jpeg_format() {
-  return {"jpeg", {"jpg", "jpeg"}, matches, open_jpeg, write_jpeg};
+  return {{.format = "jpeg",
+           .title = "JPEG",
+           .extensions = {"jpg", "jpeg"},
+           .types = {PixelType::uint8},
+           .compressions = {"jpeg"},
+           .lossless = false,
+           .attributes = true,
+           .longest_side = JPEG_MAX_DIMENSION},
+          matches,
+          open_jpeg,
+          write_jpeg};
 }
 
 }  // namespace welkin::io

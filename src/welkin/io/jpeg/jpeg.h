@@ -10,6 +10,6 @@ std::unique_ptr<Reader> open_jpeg(const Source& source);
 
 /// Writes baseline JPEG at WriteOptions::quality, colour at full resolution (4:4:4); attributes as a comment
 /// of lines name=value.
-WriteReport write_jpeg(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
+WriteReport write_jpeg(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
 
 }  // namespace welkin::io

@@ -17,7 +17,7 @@ namespace {
 
 class Encoder {
  public:
-  explicit Encoder(OutputFile& file) : file_(file) {
+  explicit Encoder(ByteSink& file) : file_(file) {
     failure_.manager.error_exit = fail_jpeg;
     codec_.err = &failure_.manager;
     output_.encoder = this;
@@ -47,7 +47,7 @@ class Encoder {
   void guarded(Call call) {
     if (guarded_jpeg(failure_, call)) return;
     if (thrown_) std::rethrow_exception(thrown_);
-    throw Error(failure_.text);
+    throw Error(ErrorKind::bad_request, failure_.text);
   }
 
  private:
@@ -79,7 +79,7 @@ class Encoder {
     }
   }
 
-  OutputFile& file_;
+  ByteSink& file_;
   JpegFailure failure_;
   std::exception_ptr thrown_;
   Output output_;
@@ -89,7 +89,7 @@ class Encoder {
 
 }  // namespace
 
-WriteReport write_jpeg(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
+WriteReport write_jpeg(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   static const std::string known[] = {"jpeg"};
   static constexpr PixelType types[] = {PixelType::uint8};
   constexpr std::size_t kLongestComment = 65533;
@@ -100,7 +100,8 @@ WriteReport write_jpeg(OutputFile& file, std::span<const WritePart> parts, const
   const int quality = checked_quality(options);
   const std::vector<int> order = channel_order(part, Alpha::none, "JPEG");
   const std::string comment = attribute_lines(options.attributes, "comment");
-  if (comment.size() > kLongestComment) throw Error("the attributes are too long for a JPEG comment");
+  if (comment.size() > kLongestComment)
+    throw Error(ErrorKind::too_large, "the attributes are too long for a JPEG comment");
   const ImageView<const float> image = part.image;
   const PixelEncoder pixels(
       type, order, std::vector<bool>(order.size(), colour_for(type, options.colour) == Colour::srgb));

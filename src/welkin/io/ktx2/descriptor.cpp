@@ -88,7 +88,8 @@ std::vector<std::byte> written_descriptor(const TexelFormat& format, Colour colo
 Descriptor parse_descriptor(std::span<const std::byte> bytes, std::uint64_t offset,
                             const TexelFormat& format) {
   const auto fail = [&](const std::string& cause, std::size_t at) {
-    throw Error("the data format descriptor " + cause + " (byte " + std::to_string(offset + at) + ")");
+    throw Error(ErrorKind::damaged,
+                "the data format descriptor " + cause + " (byte " + std::to_string(offset + at) + ")");
   };
   const auto word = [&](std::size_t i) { return load_native<std::uint32_t>(bytes.data() + 4 * i); };
   if (bytes.size() < 4 * (1 + kBlockWords)) fail("is too short", bytes.size());

@@ -35,11 +35,12 @@ class Fields {
   std::uint64_t long_word(std::size_t offset) const { return take<std::uint64_t>(offset); }
 
   [[noreturn]] void fail(const std::string& cause, std::size_t offset) const {
-    throw Error(source_.name + ": " + cause + " (byte " + std::to_string(offset) + ")");
+    throw Error(ErrorKind::damaged, source_.name, cause + " (byte " + std::to_string(offset) + ")");
   }
   [[noreturn]] void ends_early(const std::string& what, std::uint64_t end) const {
-    throw Error(source_.name + ": ends early (byte " + std::to_string(source_.bytes.size()) + "): " + what +
-                " ends at byte " + std::to_string(end));
+    throw Error(ErrorKind::damaged, source_.name,
+                "ends early (byte " + std::to_string(source_.bytes.size()) + "): " + what + " ends at byte " +
+                    std::to_string(end));
   }
 
  private:

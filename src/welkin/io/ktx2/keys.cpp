@@ -38,7 +38,8 @@ Keys parse_keys(std::span<const std::byte> bytes, std::uint64_t offset) {
   Keys keys;
   std::size_t at = 0;
   const auto fail = [&](const std::string& cause) {
-    throw Error("key/value data: " + cause + " (byte " + std::to_string(offset + at) + ")");
+    throw Error(ErrorKind::damaged,
+                "key/value data: " + cause + " (byte " + std::to_string(offset + at) + ")");
   };
   while (at < bytes.size()) {
     if (bytes.size() - at < sizeof(std::uint32_t)) fail("an entry ends early");
@@ -62,18 +63,19 @@ std::vector<std::byte> written_keys(const std::map<std::string, std::string>& at
                                             {"KTXwriter", "welkin " WELKIN_VERSION}};
   for (const auto& [key, value] : attributes) {
     if (key.starts_with("KTX") || key.starts_with("ktx")) continue;
-    if (key.empty()) throw Error("an attribute without a name cannot be a key of KTX2");
+    if (key.empty()) throw Error(ErrorKind::damaged, "an attribute without a name cannot be a key of KTX2");
     for (const std::string& text : {key, value}) {
       if (!is_text(text))
-        throw Error("the attribute '" + std::string(key.c_str()) +
-                    "' holds a zero byte, where its text ends");
+        throw Error(ErrorKind::damaged, "the attribute '" + std::string(key.c_str()) +
+                                            "' holds a zero byte, where its text ends");
     }
     all.emplace(key, value);
   }
   std::vector<std::byte> bytes;
   for (const auto& [key, value] : all) {
     const std::size_t length = key.size() + 1 + value.size() + 1, at = bytes.size();
-    if (length > 0xffffff) throw Error("the attribute '" + key + "' is longer than 16 MiB");
+    if (length > 0xffffff)
+      throw Error(ErrorKind::damaged, "the attribute '" + key + "' is longer than 16 MiB");
     bytes.resize(at + sizeof(std::uint32_t) + padded(length));
     const auto word = static_cast<std::uint32_t>(length);
     std::byte* to = bytes.data() + at;

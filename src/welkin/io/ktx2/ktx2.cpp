@@ -42,14 +42,14 @@ class Ktx2Reader final : public Reader {
       read_descriptor();
       read_keys();
     } catch (const Error& error) {
-      throw Error(source.name + ": " + error.what());
+      throw in_file(source.name, error);
     }
     if (header_.one_dimensional) info_.notes.push_back("a texture of one dimension");
     if (header_.asks_for_levels) info_.notes.push_back("its other levels are to be made from level 0");
     list_parts();
   }
 
-  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override;
+  void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override;
 
  private:
   std::span<const std::byte> section(const Section& section) const {
@@ -78,12 +78,14 @@ class Ktx2Reader final : public Reader {
     const std::size_t axes = header_.one_dimensional ? 1 : 2;
     const bool known = orientation.size() == axes && (orientation[0] == 'r' || orientation[0] == 'l') &&
                        (axes == 1 || orientation[1] == 'd' || orientation[1] == 'u');
-    if (!known) throw Error("KTXorientation is '" + orientation + "', which is not an orientation");
+    if (!known)
+      throw Error(ErrorKind::damaged, "KTXorientation is '" + orientation + "', which is not an orientation");
     from_right_ = orientation[0] == 'l';
     from_bottom_ = axes == 2 && orientation[1] == 'u';
     if (!from_right_ && !from_bottom_) return;
     if (header_.faces == 6)
-      throw Error("KTXorientation of a cube is '" + orientation + "', where the format demands rd");
+      throw Error(ErrorKind::damaged,
+                  "KTXorientation of a cube is '" + orientation + "', where the format demands rd");
     info_.notes.push_back("stored in the orientation " + orientation + "; turned upright");
   }
 
@@ -112,8 +114,9 @@ class Ktx2Reader final : public Reader {
     try {
       unpack(header_.scheme, section(header_.levels[level].stored), buffer->bytes());
     } catch (const Error& error) {
-      throw Error(source_.name + ": level " + std::to_string(level) + ": " + error.what() + " (byte " +
-                  std::to_string(header_.levels[level].stored.offset) + ")");
+      throw Error(error.kind(), source_.name,
+                  "level " + std::to_string(level) + ": " + error.what() + " (byte " +
+                      std::to_string(header_.levels[level].stored.offset) + ")");
     }
     kept_ = buffer;
     kept_level_ = level;
@@ -128,7 +131,7 @@ class Ktx2Reader final : public Reader {
   std::size_t kept_level_ = 0;
 };
 
-void Ktx2Reader::read(std::size_t part_index, std::span<const int> channels, ImageView<float> out) {
+void Ktx2Reader::decode(std::size_t part_index, std::span<const int> channels, ImageView<float> out) {
   const PartInfo& part = info_.parts[part_index];
   assert(out.width == part.width && out.height == part.height);
   assert(channels.size() == static_cast<std::size_t>(out.channels));
@@ -177,7 +180,21 @@ std::unique_ptr<Reader> open_ktx2(const Source& source) {
 }  // namespace ktx2
 
 Format ktx2_format() {
-  return {"ktx2", {"ktx2"}, ktx2::is_ktx2, ktx2::open_ktx2, ktx2::write_ktx2};
+  return {{.format = "ktx2",
+           .title = "KTX2",
+           .extensions = {"ktx2"},
+           .types = {PixelType::float32, PixelType::half, PixelType::rgb9e5, PixelType::r11g11b10},
+           .compressions = {"none", "zstd"},
+           .channels = Channels::rgba,
+           .pictures = true,
+           .levels = true,
+           .texture = true,
+           .hdr = true,
+           .negative = true,
+           .attributes = true},
+          ktx2::is_ktx2,
+          ktx2::open_ktx2,
+          ktx2::write_ktx2};
 }
 
 }  // namespace welkin::io

@@ -21,8 +21,9 @@ void unpack_zlib(std::span<const std::byte> packed, std::span<std::byte> to) {
   const auto result =
       libdeflate_zlib_decompress(inflater.get(), packed.data(), packed.size(), to.data(), to.size(), nullptr);
   if (result == LIBDEFLATE_SUCCESS) return;
-  throw Error(result == LIBDEFLATE_BAD_DATA ? "zlib data is damaged"
-                                            : "zlib data unpacks to another size than the level's");
+  throw Error(ErrorKind::damaged, result == LIBDEFLATE_BAD_DATA
+                                      ? "zlib data is damaged"
+                                      : "zlib data unpacks to another size than the level's");
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ Buffer pack_zstd(std::span<const std::byte> bytes) {
   Buffer packed = Buffer::of_size(ZSTD_compressBound(bytes.size()));
   const std::size_t size =
       ZSTD_compress2(packer.get(), packed.data.get(), packed.size, bytes.data(), bytes.size());
-  if (ZSTD_isError(size)) throw Error(std::string("zstd: ") + ZSTD_getErrorName(size));
+  if (ZSTD_isError(size)) throw Error(ErrorKind::damaged, std::string("zstd: ") + ZSTD_getErrorName(size));
   packed.size = size;
   return packed;
 }
@@ -46,9 +47,11 @@ void unpack(Scheme scheme, std::span<const std::byte> packed, std::span<std::byt
   assert(scheme != Scheme::none);
   if (scheme == Scheme::zlib) return unpack_zlib(packed, to);
   const std::size_t size = ZSTD_decompress(to.data(), to.size(), packed.data(), packed.size());
-  if (ZSTD_isError(size)) throw Error(std::string("zstd data is damaged: ") + ZSTD_getErrorName(size));
+  if (ZSTD_isError(size))
+    throw Error(ErrorKind::damaged, std::string("zstd data is damaged: ") + ZSTD_getErrorName(size));
   if (size != to.size()) {
-    throw Error("zstd data unpacks to " + std::to_string(size) + " bytes, not " + std::to_string(to.size()));
+    throw Error(ErrorKind::damaged,
+                "zstd data unpacks to " + std::to_string(size) + " bytes, not " + std::to_string(to.size()));
   }
 }
 

@@ -29,8 +29,9 @@ class Pictures {
     int levels = 0, layers = 0, faces = 0;
     for (const WritePart& part : parts) {
       if (part.level < 0 || part.layer < 0 || part.face < 0 || part.face > 5)
-        throw Error("level " + std::to_string(part.level) + ", layer " + std::to_string(part.layer) +
-                    ", face " + std::to_string(part.face) + " is no place in a texture");
+        throw Error(ErrorKind::bad_request, "level " + std::to_string(part.level) + ", layer " +
+                                                std::to_string(part.layer) + ", face " +
+                                                std::to_string(part.face) + " is no place in a texture");
       levels = std::max(levels, part.level + 1);
       layers = std::max(layers, part.layer + 1);
       faces = std::max(faces, part.face + 1);
@@ -40,7 +41,8 @@ class Pictures {
     const auto pictures = static_cast<std::uint64_t>(levels) * static_cast<std::uint64_t>(layers) *
                           static_cast<std::uint64_t>(header.faces);
     if (pictures > kMostPictures)
-      throw Error(std::to_string(pictures) + " pictures, more than " + std::to_string(kMostPictures));
+      throw Error(ErrorKind::too_large,
+                  std::to_string(pictures) + " pictures, more than " + std::to_string(kMostPictures));
     header.levels.resize(static_cast<std::size_t>(levels));
     place(parts, header);
     check_sizes(header);
@@ -67,13 +69,15 @@ class Pictures {
       const auto level = static_cast<std::size_t>(part.level);
       const auto picture = static_cast<std::size_t>(part.layer) * faces + static_cast<std::size_t>(part.face);
       const WritePart*& place = parts_[level * of_level_ + picture];
-      if (place != nullptr) throw Error("two pictures for " + name(header, level, picture));
+      if (place != nullptr)
+        throw Error(ErrorKind::bad_request, "two pictures for " + name(header, level, picture));
       place = &part;
     }
     const auto missing = std::find(parts_.begin(), parts_.end(), nullptr);
     if (missing == parts_.end()) return;
     const auto index = static_cast<std::size_t>(missing - parts_.begin());
-    throw Error("no picture for " + name(header, index / of_level_, index % of_level_));
+    throw Error(ErrorKind::bad_request,
+                "no picture for " + name(header, index / of_level_, index % of_level_));
   }
 
   void check_sizes(Header& header) const {
@@ -83,19 +87,22 @@ class Pictures {
       return std::to_string(width) + "×" + std::to_string(height);
     };
     if (header.faces == 6 && header.width != header.height)
-      throw Error("the faces of a cube must be square, not " + size_text(header.width, header.height));
+      throw Error(ErrorKind::unsupported,
+                  "the faces of a cube must be square, not " + size_text(header.width, header.height));
     const auto most = static_cast<std::size_t>(
         std::bit_width(static_cast<unsigned>(std::max(header.width, header.height))));
     if (header.levels.size() > most)
-      throw Error(std::to_string(header.levels.size()) + " levels, of which " +
-                  size_text(header.width, header.height) + " has at most " + std::to_string(most));
+      throw Error(ErrorKind::bad_request, std::to_string(header.levels.size()) + " levels, of which " +
+                                              size_text(header.width, header.height) + " has at most " +
+                                              std::to_string(most));
     for (std::size_t level = 0; level < header.levels.size(); ++level) {
       const int width = header.width_of(level), height = header.height_of(level);
       for (std::size_t i = 0; i < of_level_; ++i) {
         const ImageView<const float>& image = at(level, i).image;
         if (image.width == width && image.height == height) continue;
-        throw Error(name(header, level, i) + " is " + size_text(image.width, image.height) + ", not " +
-                    size_text(width, height));
+        throw Error(ErrorKind::bad_request, name(header, level, i) + " is " +
+                                                size_text(image.width, image.height) + ", not " +
+                                                size_text(width, height));
       }
     }
   }
@@ -128,14 +135,14 @@ class Writer {
     header_.descriptor = {header_bytes(header_.levels.size()), descriptor.size()};
     header_.keys = {header_.descriptor.offset + descriptor.size(), keys.size()};
     if (header_.keys.offset + header_.keys.bytes > std::numeric_limits<std::uint32_t>::max())
-      throw Error("the attributes need more than 4 GiB");
+      throw Error(ErrorKind::too_large, "the attributes need more than 4 GiB");
     head_ = descriptor;
     head_.insert(head_.end(), keys.begin(), keys.end());
     for (std::size_t level = 0; level < header_.levels.size(); ++level)
       header_.levels[level].unpacked_bytes = header_.level_bytes(level);
   }
 
-  WriteReport write(OutputFile& file) {
+  WriteReport write(ByteSink& file) {
     return header_.scheme == Scheme::none ? write_plain(file) : write_packed(file);
   }
 
@@ -168,7 +175,7 @@ class Writer {
   }
 
   /// Gives the levels, whose stored sizes are known, their offsets, and writes what stands before them.
-  void write_head(OutputFile& file) {
+  void write_head(ByteSink& file) {
     const std::uint64_t alignment = level_alignment(header_);
     std::uint64_t offset = header_.keys.offset + header_.keys.bytes;
     for (std::size_t level = header_.levels.size(); level-- > 0;) {
@@ -182,12 +189,12 @@ class Writer {
   }
 
   /// Levels have sizes that are multiples of their alignment, so only the first needs bytes before it.
-  static void pad_to(OutputFile& file, std::uint64_t offset) {
+  static void pad_to(ByteSink& file, std::uint64_t offset) {
     static constexpr std::array<std::byte, 16> kZeros{};
     file.write(std::span(kZeros).first(offset - file.tell()));
   }
 
-  WriteReport write_plain(OutputFile& file) {
+  WriteReport write_plain(ByteSink& file) {
     for (Level& level : header_.levels) level.stored.bytes = level.unpacked_bytes;
     write_head(file);
     constexpr std::size_t kBatchBytes = std::size_t{4} << 20;
@@ -209,7 +216,7 @@ class Writer {
     return report;
   }
 
-  WriteReport write_packed(OutputFile& file) {
+  WriteReport write_packed(ByteSink& file) {
     std::vector<Buffer> packed(header_.levels.size());
     std::vector<WriteReport> reports(header_.levels.size());
     tbb::parallel_for(
@@ -240,7 +247,7 @@ class Writer {
 
 }  // namespace
 
-WriteReport write_ktx2(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
+WriteReport write_ktx2(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   return Writer(parts, options).write(file);
 }
 

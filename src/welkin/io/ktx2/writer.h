@@ -14,6 +14,6 @@ namespace welkin::io::ktx2 {
 ///
 /// Attributes become keys (ktx2_keys.h). The same input gives the same bytes. Memory: some MiB, or with zstd
 /// the whole file. Throws Error, the cause only.
-WriteReport write_ktx2(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
+WriteReport write_ktx2(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
 
 }  // namespace welkin::io::ktx2

@@ -74,7 +74,7 @@ class PfmReader : public Reader {
         {"", static_cast<int>(width), static_cast<int>(height), channels, PixelType::float32, "none"});
   }
 
-  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
+  void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
     assert(part == 0 && out.width == info_.parts[0].width && out.height == info_.parts[0].height);
     assert(channels.size() == static_cast<std::size_t>(out.channels));
     static_cast<void>(part);
@@ -102,7 +102,9 @@ class PfmReader : public Reader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& cause) const { throw Error(source_.name + ": " + cause); }
+  [[noreturn]] void fail(const std::string& cause) const {
+    throw Error(ErrorKind::damaged, source_.name, cause);
+  }
 
   std::string next_word() {
     const auto* text = reinterpret_cast<const char*>(source_.bytes.data());
@@ -150,12 +152,13 @@ std::string scale_of(const WriteOptions& options) {
   const double scale = std::strtod(found->second.c_str(), nullptr);
   const bool plain = found->second.find_first_not_of("0123456789.eE+-") == std::string::npos;
   if (!plain || !std::isfinite(scale) || scale <= 0 || found->second.front() == '+') {
-    throw Error("the attribute " + kScaleName + "=" + found->second + " is not a positive number");
+    throw Error(ErrorKind::damaged,
+                "the attribute " + kScaleName + "=" + found->second + " is not a positive number");
   }
   return found->second;
 }
 
-WriteReport write_pfm(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
+WriteReport write_pfm(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   static const std::string known[] = {"none"};
   static constexpr PixelType types[] = {PixelType::float32};
   const WritePart& part = only_part(parts, "PFM");
@@ -194,7 +197,16 @@ WriteReport write_pfm(OutputFile& file, std::span<const WritePart> parts, const 
 }  // namespace
 
 Format pfm_format() {
-  return {"pfm", {"pfm"}, matches, open_pfm, write_pfm};
+  return {{.format = "pfm",
+           .title = "PFM",
+           .extensions = {"pfm"},
+           .types = {PixelType::float32},
+           .compressions = {"none"},
+           .hdr = true,
+           .negative = true},
+          matches,
+          open_pfm,
+          write_pfm};
 }
 
 }  // namespace welkin::io

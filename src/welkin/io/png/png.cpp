@@ -31,7 +31,7 @@ bool matches(std::span<const std::byte> bytes) {
 void check_chunks(const Source& source) {
   constexpr std::size_t kAround = 12;  // length, name and checksum
   const auto fail = [&](const char* cause, std::size_t at) {
-    throw Error(source.name + ": " + cause + " (byte " + std::to_string(at) + ")");
+    throw Error(ErrorKind::damaged, source.name, std::string(cause) + " (byte " + std::to_string(at) + ")");
   };
   for (std::size_t at = sizeof kSignature;;) {
     const std::size_t left = source.bytes.size() - at;
@@ -83,7 +83,8 @@ class Decoder {
   template <class Call>
   void guarded(Call call) {
     if (guarded_png(png_, call)) return;
-    throw Error(source_.name + ": " + failure_.text + " (byte " + std::to_string(at_) + ")");
+    throw Error(ErrorKind::damaged, source_.name,
+                std::string(failure_.text) + " (byte " + std::to_string(at_) + ")");
   }
 
   /// Palettes, fewer than 8 bits and tRNS become plain channels. Afterwards png_get_* tell of what rows will
@@ -141,8 +142,9 @@ class PngReader : public Reader {
     const std::uint64_t height = png_get_image_height(png, info);
     check_size(source_, width, height, 1);
     if (png_get_rowbytes(png, info) * height / kBestDeflateRatio > source_.bytes.size()) {
-      throw Error(source_.name + ": " + std::to_string(source_.bytes.size()) + " bytes cannot hold " +
-                  std::to_string(width) + "×" + std::to_string(height) + " pixels");
+      throw Error(ErrorKind::damaged, source_.name,
+                  std::to_string(source_.bytes.size()) + " bytes cannot hold " + std::to_string(width) + "×" +
+                      std::to_string(height) + " pixels");
     }
     info_.format = "png";
     info_.bytes = source_.bytes.size();
@@ -167,7 +169,7 @@ class PngReader : public Reader {
                            "deflate"});
   }
 
-  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
+  void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
     assert(part == 0 && out.width == info_.parts[0].width && out.height == info_.parts[0].height);
     assert(channels.size() == static_cast<std::size_t>(out.channels));
     static_cast<void>(part);
@@ -265,7 +267,16 @@ std::unique_ptr<Reader> open_png(const Source& source) {
 }
 
 Format png_format() {
-  return {"png", {"png"}, matches, open_png, write_png};
+  return {{.format = "png",
+           .title = "PNG",
+           .extensions = {"png"},
+           .types = {PixelType::uint16, PixelType::uint8},
+           .compressions = {"zip", "none"},
+           .channels = Channels::rgba,
+           .attributes = true},
+          matches,
+          open_png,
+          write_png};
 }
 
 }  // namespace welkin::io

@@ -9,6 +9,6 @@ namespace welkin::io {
 std::unique_ptr<Reader> open_png(const Source& source);
 
 /// Writes 16 bits by default; attributes as tEXt, or iTXt where they are not ASCII.
-WriteReport write_png(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
+WriteReport write_png(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
 
 }  // namespace welkin::io

@@ -16,7 +16,7 @@ namespace {
 
 class Encoder {
  public:
-  explicit Encoder(OutputFile& file) : file_(file) {
+  explicit Encoder(ByteSink& file) : file_(file) {
     png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure_, fail_png, ignore_png_warning);
     info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
     if (info_ == nullptr) {
@@ -36,7 +36,7 @@ class Encoder {
   void guarded(Call call) {
     if (guarded_png(png_, call)) return;
     if (thrown_) std::rethrow_exception(thrown_);
-    throw Error(failure_.text);
+    throw Error(ErrorKind::bad_request, failure_.text);
   }
 
  private:
@@ -55,7 +55,7 @@ class Encoder {
     }
   }
 
-  OutputFile& file_;
+  ByteSink& file_;
   PngFailure failure_;
   std::exception_ptr thrown_;
   png_structp png_ = nullptr;
@@ -73,7 +73,8 @@ void check_keyword(const std::string& key) {
   const bool printable = std::all_of(key.begin(), key.end(), [](char c) { return c >= ' ' && c <= '~'; });
   if (key.empty() || key.size() > kLongestKeyword || !printable || key.front() == ' ' || key.back() == ' ' ||
       key.find("  ") != std::string::npos) {
-    throw Error("the attribute name '" + key + "' cannot be a PNG keyword (1–79 printable ASCII characters)");
+    throw Error(ErrorKind::unsupported,
+                "the attribute name '" + key + "' cannot be a PNG keyword (1–79 printable ASCII characters)");
   }
 }
 
@@ -81,7 +82,8 @@ std::vector<png_text> texts_of(const std::map<std::string, std::string>& attribu
   std::vector<png_text> texts;
   for (const auto& [key, value] : attributes) {
     check_keyword(key);
-    if (value.find('\0') != std::string::npos) throw Error("the attribute " + key + " holds a zero byte");
+    if (value.find('\0') != std::string::npos)
+      throw Error(ErrorKind::unsupported, "the attribute " + key + " holds a zero byte");
     png_text text{};
     const bool ascii = is_ascii(value);
     text.compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
@@ -95,7 +97,7 @@ std::vector<png_text> texts_of(const std::map<std::string, std::string>& attribu
 
 }  // namespace
 
-WriteReport write_png(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
+WriteReport write_png(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   static const std::string known[] = {"zip", "none"};
   static constexpr PixelType types[] = {PixelType::uint16, PixelType::uint8};
   // On smooth 8-bit pictures libpng's default of 6 takes three times as long, for files of the same size.

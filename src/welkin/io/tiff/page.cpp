@@ -160,7 +160,8 @@ TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
   TiffPage page;
   page.directory = TIFFCurrentDirOffset(tiff);
   const auto fail = [&](const std::string& cause) {
-    throw Error(source.name + ": " + cause + " (directory at byte " + std::to_string(page.directory) + ")");
+    throw Error(ErrorKind::damaged, source.name,
+                cause + " (directory at byte " + std::to_string(page.directory) + ")");
   };
   const std::uint32_t width = field<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0);
   const std::uint32_t height = field<std::uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0);

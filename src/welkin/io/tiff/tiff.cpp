@@ -93,7 +93,7 @@ class TiffReader : public Reader {
     }
   }
 
-  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
+  void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
     assert(part < pages_.size());
     const TiffPage& page = pages_[part];
     assert(out.width == page.part.width && out.height == page.part.height);
@@ -118,7 +118,7 @@ class TiffReader : public Reader {
 
  private:
   [[noreturn]] void fail(const std::string& otherwise) const {
-    throw Error(source_.name + ": " + (failure_.text[0] != 0 ? failure_.text : otherwise));
+    throw Error(ErrorKind::damaged, source_.name, (failure_.text[0] != 0 ? failure_.text : otherwise));
   }
 
   bool next_directory() {
@@ -247,7 +247,20 @@ std::unique_ptr<Reader> open_tiff(const Source& source) {
 }
 
 Format tiff_format() {
-  return {"tiff", {"tif", "tiff"}, matches, open_tiff, write_tiff};
+  return {
+      {.format = "tiff",
+       .title = "TIFF",
+       .extensions = {"tif", "tiff"},
+       .types = {PixelType::float32, PixelType::half, PixelType::uint8, PixelType::uint16, PixelType::uint32},
+       .compressions = {"zip", "none", "lzw"},
+       .channels = Channels::any,
+       .pictures = true,
+       .hdr = true,
+       .negative = true,
+       .attributes = true},
+      matches,
+      open_tiff,
+      write_tiff};
 }
 
 }  // namespace welkin::io

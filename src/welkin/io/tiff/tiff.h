@@ -12,7 +12,7 @@ std::unique_ptr<Reader> open_tiff(const Source& source);
 /// Writes float by default, in strips, compressed by `zip` (`none`, `lzw`), one directory per part; BigTIFF
 /// when the pixels could pass 4 GiB. Attributes are lines name=value of the first directory's
 /// ImageDescription. Channels other than Y, R G B and A keep their names in the line `welkin:channels`.
-WriteReport write_tiff(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
+WriteReport write_tiff(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
 
 /// The attribute that names the samples of a TIFF, comma separated.
 inline constexpr const char* kTiffChannels = "welkin:channels";

@@ -12,10 +12,10 @@
 namespace welkin::io {
 namespace {
 
-/// An OutputFile as libtiff writes to it. An exception may not pass through libtiff's frames, so it waits in
+/// A ByteSink as libtiff writes to it. An exception may not pass through libtiff's frames, so it waits in
 /// `thrown`.
 struct Output {
-  OutputFile& file;
+  ByteSink& file;
   std::exception_ptr thrown;
 
   template <class Action>
@@ -29,20 +29,20 @@ struct Output {
     }
   }
   static tmsize_t read(thandle_t handle, void* out, tmsize_t size) {
-    return attempt(handle, [&](OutputFile& file) {
+    return attempt(handle, [&](ByteSink& file) {
       const std::size_t got = file.read_at(file.tell(), out, static_cast<std::size_t>(size));
       file.seek(file.tell() + got);
       return static_cast<tmsize_t>(got);
     });
   }
   static tmsize_t write(thandle_t handle, void* data, tmsize_t size) {
-    return attempt(handle, [&](OutputFile& file) {
+    return attempt(handle, [&](ByteSink& file) {
       file.write(data, static_cast<std::size_t>(size));
       return size;
     });
   }
   static toff_t seek(thandle_t handle, toff_t offset, int whence) {
-    OutputFile& file = static_cast<Output*>(handle)->file;
+    ByteSink& file = static_cast<Output*>(handle)->file;
     if (whence == SEEK_CUR) offset += file.tell();
     if (whence == SEEK_END) offset += file.size();
     file.seek(offset);
@@ -85,16 +85,18 @@ Samples arrange(const std::vector<std::string>& channels) {
   for (const std::string& name : channels) {
     if (std::find(samples.names.begin(), samples.names.end(), name) != samples.names.end()) continue;
     samples.custom_names = samples.custom_names || channels.size() > 1;
-    if (name.find(',') != std::string::npos) throw Error("TIFF cannot hold a channel named '" + name + "'");
+    if (name.find(',') != std::string::npos)
+      throw Error(ErrorKind::unsupported, "TIFF cannot hold a channel named '" + name + "'");
     take(name);
   }
-  if (samples.names.size() != channels.size()) throw Error("two channels have one name");
+  if (samples.names.size() != channels.size())
+    throw Error(ErrorKind::bad_request, "two channels have one name");
   return samples;
 }
 
 class Writer {
  public:
-  Writer(OutputFile& file, const WriteOptions& options, const char* mode)
+  Writer(ByteSink& file, const WriteOptions& options, const char* mode)
       : options_(options),
         output_{file, nullptr},
         tiff_(open_tiff_stream(output_.stream(), mode, kUnlimited, failure_)) {
@@ -130,7 +132,7 @@ class Writer {
  private:
   [[noreturn]] void fail() {
     if (output_.thrown) std::rethrow_exception(output_.thrown);
-    throw Error(failure_.text[0] != 0 ? failure_.text : "libtiff failed");
+    throw Error(ErrorKind::bad_request, failure_.text[0] != 0 ? failure_.text : "libtiff failed");
   }
   void check(bool succeeded) {
     if (!succeeded || output_.thrown) fail();
@@ -205,7 +207,7 @@ class Writer {
 
 }  // namespace
 
-WriteReport write_tiff(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
+WriteReport write_tiff(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   static const std::string known[] = {"zip", "none", "lzw"};
   static constexpr PixelType types[] = {PixelType::float32, PixelType::half, PixelType::uint8,
                                         PixelType::uint16, PixelType::uint32};

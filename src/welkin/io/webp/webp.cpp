@@ -39,7 +39,8 @@ class WebpReader : public Reader {
   explicit WebpReader(const Source& source) : source_(source) {
     WebPBitstreamFeatures features;
     check(WebPGetFeatures(data(), source_.bytes.size(), &features));
-    if (features.has_animation != 0) throw Error(source_.name + ": an animation, not a picture");
+    if (features.has_animation != 0)
+      throw Error(ErrorKind::unsupported, source_.name, "an animation, not a picture");
     std::vector<std::string> channels = {"R", "G", "B"};
     if (features.has_alpha != 0) channels.push_back("A");
     check_size(source_, static_cast<std::uint64_t>(features.width),
@@ -52,7 +53,7 @@ class WebpReader : public Reader {
                            features.format == kLossless ? "lossless" : "lossy"});
   }
 
-  void read(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
+  void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
     assert(part == 0 && out.width == info_.parts[0].width && out.height == info_.parts[0].height);
     assert(channels.size() == static_cast<std::size_t>(out.channels));
     static_cast<void>(part);
@@ -61,7 +62,8 @@ class WebpReader : public Reader {
     std::vector<std::byte> stored(stride * static_cast<std::size_t>(out.height));
 
     WebPDecoderConfig config;
-    if (WebPInitDecoderConfig(&config) == 0) throw Error("libwebp is of another version than its header");
+    if (WebPInitDecoderConfig(&config) == 0)
+      throw Error(ErrorKind::unsupported, "libwebp is of another version than its header");
     config.options.use_threads = 1;
     config.output.colorspace = picture.channels.size() == 4 ? MODE_RGBA : MODE_RGB;
     config.output.is_external_memory = 1;
@@ -77,7 +79,7 @@ class WebpReader : public Reader {
  private:
   const std::uint8_t* data() const { return reinterpret_cast<const std::uint8_t*>(source_.bytes.data()); }
   void check(VP8StatusCode status) const {
-    if (status != VP8_STATUS_OK) throw Error(source_.name + ": " + text_of(status));
+    if (status != VP8_STATUS_OK) throw Error(ErrorKind::damaged, source_.name, text_of(status));
   }
 
   Source source_;
@@ -89,7 +91,7 @@ std::unique_ptr<Reader> open_webp(const Source& source) {
 
 /// Where the encoder's bytes go. An exception may not pass through libwebp's frames, so it waits in `thrown`.
 struct Sink {
-  OutputFile& file;
+  ByteSink& file;
   std::exception_ptr thrown;
 
   static int write(const std::uint8_t* data, std::size_t size, const WebPPicture* picture) noexcept {
@@ -108,7 +110,8 @@ struct Sink {
 class Picture {
  public:
   Picture(const std::vector<std::byte>& stored, int width, int height, bool alpha, bool lossless) {
-    if (WebPPictureInit(&picture_) == 0) throw Error("libwebp is of another version than its header");
+    if (WebPPictureInit(&picture_) == 0)
+      throw Error(ErrorKind::unsupported, "libwebp is of another version than its header");
     picture_.width = width;
     picture_.height = height;
     picture_.use_argb = lossless ? 1 : 0;
@@ -126,7 +129,8 @@ class Picture {
     picture_.custom_ptr = &sink;
     if (WebPEncode(&config, &picture_) != 0) return;
     if (sink.thrown) std::rethrow_exception(sink.thrown);
-    throw Error("libwebp cannot encode the picture (error " + std::to_string(picture_.error_code) + ")");
+    throw Error(ErrorKind::damaged,
+                "libwebp cannot encode the picture (error " + std::to_string(picture_.error_code) + ")");
   }
 
  private:
@@ -134,7 +138,7 @@ class Picture {
 };
 
 /// Lossless at quality 100 or if `compression` says so, else lossy. Grey is stored as three equal channels.
-WriteReport write_webp(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options) {
+WriteReport write_webp(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   static const std::string known[] = {"", "lossless", "lossy"};
   static constexpr PixelType types[] = {PixelType::uint8};
   constexpr int kLosslessQuality = 100;
@@ -158,7 +162,8 @@ WriteReport write_webp(OutputFile& file, std::span<const WritePart> parts, const
   const WriteReport report = pixels.encode_rows(image, stored.data(), stride);
 
   WebPConfig config;
-  if (WebPConfigInit(&config) == 0) throw Error("libwebp is of another version than its header");
+  if (WebPConfigInit(&config) == 0)
+    throw Error(ErrorKind::unsupported, "libwebp is of another version than its header");
   config.thread_level = 1;
   if (lossless) {
     constexpr int kLevel = 6;
@@ -175,7 +180,17 @@ WriteReport write_webp(OutputFile& file, std::span<const WritePart> parts, const
 }  // namespace
 
 Format webp_format() {
-  return {"webp", {"webp"}, matches, open_webp, write_webp};
+  return {{.format = "webp",
+           .title = "WebP",
+           .extensions = {"webp"},
+           .types = {PixelType::uint8},
+           .compressions = {"lossy", "lossless"},
+           .channels = Channels::rgba,
+           .lossless = false,
+           .longest_side = WEBP_MAX_DIMENSION},
+          matches,
+          open_webp,
+          write_webp};
 }
 
 }  // namespace welkin::io

@@ -1,0 +1,109 @@
+#include <algorithm>
+
+#include "welkin/base/error.h"
+#include "welkin/io/format.h"
+#include "welkin/io/output_file.h"
+#include "welkin/io/write_choices.h"
+
+namespace welkin::io {
+namespace {
+
+const Format& format_named(std::string_view name) {
+  for (const Format& format : formats()) {
+    if (format.capabilities.format == name) return format;
+  }
+  return format_named(capabilities(name).format);  // throws
+}
+
+/// Throws for what the format can't hold of a picture.
+void check_picture(const Capabilities& format, const WritePart& part, const WriteOptions& options) {
+  const PixelType type = pixel_type(options, format.types, format.title);
+  compression(options, format.compressions, format.title);
+  checked_quality(options);
+  const bool packed = type == PixelType::rgb9e5 || type == PixelType::r11g11b10;
+  if (format.channels != Channels::any) {
+    const Alpha alpha = format.channels == Channels::rgba && !packed ? Alpha::allowed : Alpha::none;
+    channel_order(part, alpha, packed ? format.title + " of " + std::string(name_of(type)) : format.title);
+  }
+  check_sides(part, format.longest_side, format.title);
+}
+
+/// Throws Error (bad_request) for parts that break WritePart's contract, and what the format can't hold.
+void check_parts(const Capabilities& format, std::span<const WritePart> parts, const WriteOptions& options) {
+  require(!parts.empty(), "there is no picture to write");
+  if (!format.pictures) only_part(parts, format.title);
+  for (const WritePart& part : parts) {
+    require(part.image.data != nullptr && part.image.width > 0 && part.image.height > 0,
+            "a picture to write has no pixels");
+    require(part.image.channels > 0 && part.channels.size() == static_cast<std::size_t>(part.image.channels),
+            "a picture to write has another number of channels than names for them");
+    check_picture(format, part, options);
+  }
+}
+
+void add(WriteReport& total, const WriteReport& report) {
+  total.above += report.above;
+  total.below += report.below;
+  total.not_finite += report.not_finite;
+}
+
+/// Runs one step of writing a file; what goes wrong names the file.
+template <class Step>
+void for_file(const std::filesystem::path& path, const Step& step) {
+  try {
+    step();
+  } catch (const Error& error) {
+    if (!error.file().empty()) throw;
+    throw in_file(path.string(), error);
+  }
+}
+
+}  // namespace
+
+WriteReport write(ByteSink& sink, std::string_view format, std::span<const WritePart> parts,
+                  const WriteOptions& options) {
+  const Format& chosen = format_named(format);
+  check_parts(chosen.capabilities, parts, options);
+  return chosen.write(sink, parts, options);
+}
+
+WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
+                      const WriteOptions& options) {
+  WriteReport total;
+  std::vector<std::pair<std::filesystem::path, std::unique_ptr<OutputFile>>> written;
+  for (std::size_t i = 0; i < count; ++i) {
+    const WriteFile file = next(i);
+    for_file(file.path, [&] {
+      const Capabilities& format = capabilities_for(file.path);
+      check_parts(format, file.parts, options);
+      written.emplace_back(file.path, std::make_unique<OutputFile>(file.path));
+      add(total, format_named(format.format).write(*written.back().second, file.parts, options));
+    });
+  }
+  for (const auto& each : written) {
+    for_file(each.first, [&] { each.second->commit(); });
+  }
+  return total;
+}
+
+WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
+                  const WriteOptions& options) {
+  return write_set(
+      1,
+      [&](std::size_t) {
+        return WriteFile{path, {parts.begin(), parts.end()}};
+      },
+      options);
+}
+
+void check_write(const std::filesystem::path& path, int width, int height,
+                 const std::vector<std::string>& channels, const WriteOptions& options) {
+  for_file(path, [&] {
+    const WritePart part{"", {nullptr, width, height, static_cast<int>(channels.size()), 0}, channels, 0, 0,
+                         0};
+    check_picture(capabilities_for(path), part, options);
+    const OutputFile unwritten(path);
+  });
+}
+
+}  // namespace welkin::io

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string_view>
+
+namespace welkin::sphere {
+
+/// How a map of the parameterization lies in a world: which of a convention's orientations it takes
+/// (convention.h).
+enum class Projection {
+  unturned,  ///< no program has a convention for it: photographs of balls, half worlds
+  panorama,  ///< u is longitude: up stays up, and the picture is turned about +Y
+  lookup,    ///< looked up by coordinates, as cubes and octahedra are
+  disc,      ///< a disc seen from inside, +Z at its centre
+};
+
+/// What code that does not know a parameterization by name needs to know of it. Defaults are for one that
+/// nothing special is known of.
+struct Traits {
+  Projection projection = Projection::unturned;
+  bool density_by_row = false;   ///< the density depends on v alone: all texels of a row are as large
+  bool filled_to_edges = false;  ///< pictures go on outside the valid places, as a paraboloid's corners do
+  bool free_aspect = false;      ///< texels are never square, so charts may have any aspect
+  bool latlong_grid =
+      false;  ///< rows at even steps of colatitude, columns at even steps of longitude, all of it
+  bool follows_size = false;  ///< its parameters `width` and `height` are the size of the chart in texels
+  bool cube_faces = false;  ///< six charts, the faces +X −X +Y −Y +Z −Z of a cube: crosses and strips exist
+  bool cube_texture = false;     ///< its charts are the faces that a graphics card looks up by direction
+  int grid_columns = 0;          ///< charts across the grid of a picture; 0: all in one row
+  std::string_view layout = {};  ///< the default layout; empty: the first that there is
+  std::string_view envmap = {};  ///< the value of OpenEXR's attribute `envmap` that declares it
+};
+
+}  // namespace welkin::sphere
