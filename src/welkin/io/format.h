@@ -19,6 +19,8 @@ struct Format {
   std::unique_ptr<Reader> (*open)(const Source& source);
   /// Null when the format is read only. Throws Error without the file's name, which the caller adds.
   WriteReport (*write)(OutputFile& file, std::span<const WritePart> parts, const WriteOptions& options);
+  /// Whether `write` takes parts that are drawn when they are written; for others they are drawn before.
+  bool draws_rows = false;
 };
 
 /// All formats, in the order in which `matches` is asked.

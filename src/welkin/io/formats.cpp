@@ -6,6 +6,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/format.h"
+#include "welkin/io/part_rows.h"
 
 namespace welkin::io {
 namespace {
@@ -168,15 +169,17 @@ WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size
   WriteReport total;
   std::vector<std::pair<std::filesystem::path, std::unique_ptr<OutputFile>>> written;
   for (std::size_t i = 0; i < count; ++i) {
-    const WriteFile file = next(i);
+    WriteFile file = next(i);
     assert(!file.parts.empty());
     for ([[maybe_unused]] const WritePart& part : file.parts) {
-      assert(part.image.data != nullptr && part.image.width > 0 && part.image.height > 0);
+      assert((part.image.data != nullptr || part.draw) && part.image.width > 0 && part.image.height > 0);
       assert(part.channels.size() == static_cast<std::size_t>(part.image.channels));
     }
     for_file(file.path, [&] {
       const Format& format = format_for_writing(file.path);
       written.emplace_back(file.path, std::make_unique<OutputFile>(file.path));
+      std::vector<Image> drawn;
+      if (!format.draws_rows) drawn = draw_parts(file.parts);
       const WriteReport report = format.write(*written.back().second, file.parts, options);
       total.above += report.above;
       total.below += report.below;

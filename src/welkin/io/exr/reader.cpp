@@ -248,7 +248,7 @@ std::unique_ptr<Reader> open_exr(const Source& source) {
 }  // namespace exr
 
 Format exr_format() {
-  return {"exr", {"exr"}, exr::is_exr, exr::open_exr, exr::write_exr};
+  return {"exr", {"exr"}, exr::is_exr, exr::open_exr, exr::write_exr, true};
 }
 
 }  // namespace welkin::io

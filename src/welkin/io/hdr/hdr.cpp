@@ -156,7 +156,7 @@ std::unique_ptr<Reader> open_hdr(const Source& source) {
 }  // namespace
 
 Format hdr_format() {
-  return {"hdr", {"hdr"}, matches, open_hdr, write_hdr};
+  return {"hdr", {"hdr"}, matches, open_hdr, write_hdr, true};
 }
 
 }  // namespace welkin::io
