@@ -21,8 +21,7 @@ void locate_centres(const ResampleJob& job, int chart, int x0, int y0, int width
 
 void copy_rows(const float* texels, ImageView<float> out) {
   const std::size_t row = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.channels);
-  for (int y = 0; y < out.height; ++y, texels += row)
-    std::memcpy(out.row(y), texels, row * sizeof(float));
+  for (int y = 0; y < out.height; ++y, texels += row) std::memcpy(out.row(y), texels, row * sizeof(float));
 }
 
 }  // namespace
@@ -53,12 +52,14 @@ void resample_points(const ResampleJob& job, Fetch kernel) {
             resample_rectangle(job, kernel, chart, x, y, columns, rows, batch);
             continue;
           }
-          // Straight into the target. What a kernel writes past the end of a row is the next tile's, or border.
+          // Straight into the target. What a kernel writes past the end of a row is the next tile's, or
+          // border.
           locate_centres(job, chart, x, y, columns, rows, batch);
           const ImageView<float> out = job.target.level.chart(chart).part(x, y, columns, rows);
           for (int row = 0; row < rows; ++row) {
             const int at = row * kColumns;
-            kernel(source, batch.chart + at, batch.source_u + at, batch.source_v + at, out.row(row), kColumns);
+            kernel(source, batch.chart + at, batch.source_u + at, batch.source_v + at, out.row(row),
+                   kColumns);
           }
         }
       },
