@@ -4,6 +4,7 @@
 // process_cost RUNS PROGRAM [ARGUMENT…]     prints `CPU_SECONDS WALL_SECONDS PEAK_MEGABYTES`, after one run
 // to warm up
 //                                           unless RUNS is 1
+// process_cost --faults RUNS PROGRAM […]    prints its page faults too, as a fourth number
 //
 // The program's standard output is dropped. Fails when the program does. Children of the program count too,
 // as far as it waits for them; memory is that of the largest of them.
@@ -16,13 +17,14 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "harness.h"
 
 namespace {
 
 struct Cost {
-  double cpu, wall, megabytes;
+  double cpu, wall, megabytes, faults;
 };
 
 double seconds(const timeval& time) {
@@ -51,25 +53,31 @@ Cost run(char** command) {
   }
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), wall,
-          static_cast<double>(usage.ru_maxrss) * 1024e-6};
+          static_cast<double>(usage.ru_maxrss) * 1024e-6,
+          static_cast<double>(usage.ru_minflt + usage.ru_majflt)};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool with_faults = argc > 1 && std::strcmp(argv[1], "--faults") == 0;
+  if (with_faults) --argc, ++argv;
   const int runs = argc > 2 ? std::atoi(argv[1]) : 0;
   if (runs < 1) {
-    std::fprintf(stderr, "process_cost RUNS PROGRAM [ARGUMENT…]\n");
+    std::fprintf(stderr, "process_cost [--faults] RUNS PROGRAM [ARGUMENT…]\n");
     return 2;
   }
   if (runs > 1) run(argv + 2);
-  std::vector<double> cpu, wall, megabytes;
+  std::vector<double> cpu, wall, megabytes, faults;
   for (int i = 0; i < runs; ++i) {
     const Cost cost = run(argv + 2);
     cpu.push_back(cost.cpu);
     wall.push_back(cost.wall);
     megabytes.push_back(cost.megabytes);
+    faults.push_back(cost.faults);
   }
   using welkin::bench::median_of;
-  std::printf("%.5f %.5f %.1f\n", median_of(cpu), median_of(wall), median_of(megabytes));
+  std::printf("%.5f %.5f %.1f", median_of(cpu), median_of(wall), median_of(megabytes));
+  if (with_faults) std::printf(" %.0f", median_of(faults));
+  std::printf("\n");
 }

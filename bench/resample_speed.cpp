@@ -1,8 +1,13 @@
 // How long it takes to resample a lat-long to a cube, beside the same texels fetched at places that are known
 // beforehand, and how exact those places are.
+//
+// resample_speed                     prints the tables
+// resample_speed gather WIDTH FACE   prints the CPU seconds of the latter alone, from a lat-long so wide
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "harness.h"
@@ -132,10 +137,22 @@ Row run_size(int width, int face, double most_cpu, const Table& times) {
           judged ? met(error.highest < 0.0005) : ""};
 }
 
+/// CPU seconds of the floor.
+double gather_cost(int width, int face) {
+  const Map source = noise_picture(width, width / 2);
+  Map target(sphere::AnyParameterization::make("cube"), face, face, 3);
+  const Places places(source, target);
+  return time_jobs({[&] { gather(source, places, target); }}, 5)[0].median().cpu;
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   const Threads threads;
+  if (argc == 4 && std::strcmp(argv[1], "gather") == 0) {
+    std::printf("%.5f\n", gather_cost(std::atoi(argv[2]), std::atoi(argv[3])));
+    return 0;
+  }
   heading("Bilinear, lat-long to cube, in memory");
   paragraph(
       "RGB float. *Gather* is the floor: the same bilinear kernel on the same threads, reading the places of "

@@ -26,6 +26,10 @@ struct ResampleJob {
 
   std::size_t channels() const { return fill.size(); }
   Fetch fetch_of(Filter filter) const;
+  /// Whether some texels of the target may get the fill.
+  bool fills() const {
+    return !source_is_whole || (!target_is_full && !target.parameterization.filled_to_edges());
+  }
 };
 
 /// directions → rotate → places, for a batch of samples given as (u, v) of a target chart, padded(count) ≤

@@ -20,6 +20,8 @@ struct Format {
   /// What is asked for lies within the capabilities. Throws Error without the file's name, which the caller
   /// adds.
   WriteReport (*write)(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
+  /// Whether `write` takes parts that are drawn when they are written; for others they are drawn before.
+  bool draws_rows = false;
 };
 
 /// All formats, in the order in which `matches` is asked.

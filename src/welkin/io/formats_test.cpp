@@ -44,9 +44,10 @@ TEST(Formats, AreKnownByTheirBytesNotTheirName) {
     const auto reader = open(folder / "misleading.exr");
     const std::vector<Format>& all = formats();
     const auto format = std::find_if(all.begin(), all.end(), [&](const Format& each) {
-      return std::count(each.extensions.begin(), each.extensions.end(), extension) > 0;
+      return std::count(each.capabilities.extensions.begin(), each.capabilities.extensions.end(),
+                        extension) > 0;
     });
-    EXPECT_EQ(reader->info().format, format->name);
+    EXPECT_EQ(reader->info().format, format->capabilities.format);
     EXPECT_EQ(reader->info().bytes, fs::file_size(folder / "misleading.exr"));
     EXPECT_EQ(reader->info().parts.at(0).width, 3);
     EXPECT_EQ(reader->info().parts.at(0).height, 2);

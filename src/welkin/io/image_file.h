@@ -100,6 +100,10 @@ struct WritePart {
   int level = 0;  ///< level, layer and face as in PartInfo, in formats of textures
   int layer = 0;
   int face = 0;
+  /// Where this is set, the picture needn't lie in memory: `image` gives its size alone, without data, and
+  /// `draw(y, rows)` fills all texels of `rows`, which are those of the picture from row y on. Called for
+  /// rows in any order, again for some, and from several threads at once.
+  std::function<void(int y, ImageView<float> rows)> draw = nullptr;
 };
 
 struct WriteOptions {

@@ -3,6 +3,7 @@
 #include "welkin/base/error.h"
 #include "welkin/io/format.h"
 #include "welkin/io/output_file.h"
+#include "welkin/io/part_rows.h"
 #include "welkin/io/write_choices.h"
 
 namespace welkin::io {
@@ -33,12 +34,20 @@ void check_parts(const Capabilities& format, std::span<const WritePart> parts, c
   require(!parts.empty(), "there is no picture to write");
   if (!format.pictures) only_part(parts, format.title);
   for (const WritePart& part : parts) {
-    require(part.image.data != nullptr && part.image.width > 0 && part.image.height > 0,
+    require((part.image.data != nullptr || part.draw) && part.image.width > 0 && part.image.height > 0,
             "a picture to write has no pixels");
     require(part.image.channels > 0 && part.channels.size() == static_cast<std::size_t>(part.image.channels),
             "a picture to write has another number of channels than names for them");
     check_picture(format, part, options);
   }
+}
+
+/// Writes parts that have been checked; those that the format can't draw row by row are drawn before.
+WriteReport write_parts(const Format& format, ByteSink& sink, std::vector<WritePart>& parts,
+                        const WriteOptions& options) {
+  std::vector<Image> drawn;
+  if (!format.draws_rows) drawn = draw_parts(parts);
+  return format.write(sink, parts, options);
 }
 
 void add(WriteReport& total, const WriteReport& report) {
@@ -64,7 +73,8 @@ WriteReport write(ByteSink& sink, std::string_view format, std::span<const Write
                   const WriteOptions& options) {
   const Format& chosen = format_named(format);
   check_parts(chosen.capabilities, parts, options);
-  return chosen.write(sink, parts, options);
+  std::vector<WritePart> own(parts.begin(), parts.end());
+  return write_parts(chosen, sink, own, options);
 }
 
 WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
@@ -72,12 +82,12 @@ WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size
   WriteReport total;
   std::vector<std::pair<std::filesystem::path, std::unique_ptr<OutputFile>>> written;
   for (std::size_t i = 0; i < count; ++i) {
-    const WriteFile file = next(i);
+    WriteFile file = next(i);
     for_file(file.path, [&] {
       const Capabilities& format = capabilities_for(file.path);
       check_parts(format, file.parts, options);
       written.emplace_back(file.path, std::make_unique<OutputFile>(file.path));
-      add(total, format_named(format.format).write(*written.back().second, file.parts, options));
+      add(total, write_parts(format_named(format.format), *written.back().second, file.parts, options));
     });
   }
   for (const auto& each : written) {

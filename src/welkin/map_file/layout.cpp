@@ -158,6 +158,27 @@ struct CellMapping {
   }
 };
 
+/// Copies `count` texels, each `from_step` values after the one before, to every `to_step`-th value.
+template <int kChannels>
+void copy_texels(const float* from, std::ptrdiff_t from_step, float* to, std::ptrdiff_t to_step, int count) {
+  for (int x = 0; x < count; ++x, from += from_step, to += to_step) std::copy_n(from, kChannels, to);
+}
+
+void copy_texels(const float* from, std::ptrdiff_t from_step, float* to, std::ptrdiff_t to_step, int count,
+                 int channels) {
+  if (from_step == channels && to_step == channels) {
+    std::copy_n(from, static_cast<std::ptrdiff_t>(count) * channels, to);
+  } else if (channels == 1) {
+    copy_texels<1>(from, from_step, to, to_step, count);
+  } else if (channels == 3) {
+    copy_texels<3>(from, from_step, to, to_step, count);
+  } else if (channels == 4) {
+    copy_texels<4>(from, from_step, to, to_step, count);
+  } else {
+    for (int x = 0; x < count; ++x, from += from_step, to += to_step) std::copy_n(from, channels, to);
+  }
+}
+
 }  // namespace
 
 namespace {
@@ -295,23 +316,50 @@ void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, Imag
   check_cell(cell, {picture.width, picture.height}, {chart.width, chart.height});
   const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
   for (int y = 0; y < picture.height; ++y) {
-    const float* from = picture.row(y);
-    float* to = chart.data + map.start + y * map.step_y;
-    for (int x = 0; x < picture.width; ++x, from += picture.channels, to += map.step_x) {
-      std::copy_n(from, picture.channels, to);
-    }
+    copy_texels(picture.row(y), picture.channels, chart.data + map.start + y * map.step_y, map.step_x,
+                picture.width, picture.channels);
   }
 }
 
 void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture) {
   check_cell(cell, {picture.width, picture.height}, {chart.width, chart.height});
+  copy_to_cell_rows(cell, chart, 0, picture);
+}
+
+void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int first,
+                       ImageView<float> rows) {
+  const bool on_its_side = (cell.quarter_turns & 1) != 0;
+  require(rows.width == (on_its_side ? chart.height : chart.width) && first >= 0 &&
+              first + rows.height <= (on_its_side ? chart.width : chart.height),
+          "a chart and the rows of its picture have other sizes");
   const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
-  for (int y = 0; y < picture.height; ++y) {
-    const float* from = chart.data + map.start + y * map.step_y;
-    float* to = picture.row(y);
-    for (int x = 0; x < picture.width; ++x, to += picture.channels, from += map.step_x) {
-      std::copy_n(from, picture.channels, to);
+  for (int y = 0; y < rows.height; ++y) {
+    copy_texels(chart.data + map.start + (first + y) * map.step_y, map.step_x, rows.row(y), rows.channels,
+                rows.width, rows.channels);
+  }
+}
+
+void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
+               ImageView<float> rows) {
+  // All cells are of one size, so those on their side are square.
+  const int width = charts.front().width, height = charts.front().height;
+  assert(rows.width == layout.columns * width && first + rows.height <= layout.rows * height);
+  for (int y = 0; y < rows.height;) {
+    const int row = (first + y) / height, inside = (first + y) % height;
+    const int count = std::min(height - inside, rows.height - y);
+    std::vector<bool> filled(static_cast<std::size_t>(layout.columns));
+    for (const LayoutCell& cell : layout.cells) {
+      if (cell.row != row) continue;
+      filled[static_cast<std::size_t>(cell.column)] = true;
+      copy_to_cell_rows(cell, charts[static_cast<std::size_t>(cell.chart)], inside,
+                        rows.part(cell.column * width, y, width, count));
     }
+    for (int column = 0; column < layout.columns; ++column) {
+      if (filled[static_cast<std::size_t>(column)]) continue;
+      const ImageView<float> black = rows.part(column * width, y, width, count);
+      for (int i = 0; i < count; ++i) std::fill_n(black.row(i), width * rows.channels, 0.0f);
+    }
+    y += count;
   }
 }
 

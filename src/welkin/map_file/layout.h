@@ -79,6 +79,14 @@ void check_turns(const Layout& layout, ChartSize size);
 /// Copies a chart out of a cell's pixels, or into them. Sizes match (swapped for odd quarter turns).
 void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart);
 void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture);
+/// The second for some of the cell's rows, from `first` on.
+void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int first,
+                       ImageView<float> rows);
+
+/// Rows of a layout's picture, from row `first` on: all cells, each with the chart of its number in `charts`,
+/// and black where there is none. Charts are of one size.
+void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
+               ImageView<float> rows);
 
 /// The rectangle of a cell in a picture.
 template <class T>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "welkin/base/error.h"
@@ -175,6 +176,56 @@ TEST(Layout, FacesAreReorderedTurnedAndRefused) {
   for (const char* bad :
        {"px,nx,py,ny,pz", "px,px,py,ny,pz,nz", "px,nx,py,ny,pz,qq", "px:45,nx,py,ny,pz,nz"}) {
     EXPECT_THROW(with_faces(strip, cube, bad), Error) << bad;
+  }
+}
+
+/// A chart whose every value says where it is.
+Image numbered_chart(int chart, int width, int height, int channels) {
+  Image image(width, height, channels);
+  for (int y = 0; y < height; ++y) {
+    for (int i = 0; i < width * channels; ++i)
+      image.view().row(y)[i] = static_cast<float>(1 + (chart * height + y) * width * channels + i);
+  }
+  return image;
+}
+
+/// In bands of any height, the picture is the one whose cells are drawn each as a whole, and black elsewhere.
+TEST(Layout, IsDrawnAlikeInBands) {
+  for (const std::string& name : sphere::parameterization_names()) {
+    const auto p = AnyParameterization::make(name);
+    for (const Layout& original : layouts_of(p)) {
+      if (original.kind != LayoutKind::picture) continue;
+      for (const Layout& layout : {original, for_reflected_world(original, p)}) {
+        const bool turned = std::any_of(layout.cells.begin(), layout.cells.end(),
+                                        [](const LayoutCell& cell) { return cell.quarter_turns % 2 != 0; });
+        for (const int channels : {1, 2, 3, 4}) {
+          const int height = 10, width = turned ? 10 : 14;
+          std::vector<Image> images;
+          std::vector<ImageView<const float>> charts;
+          for (int chart = 0; chart < p.charts(); ++chart)
+            images.push_back(numbered_chart(chart, width, height, channels));
+          for (const Image& image : images) charts.push_back(image.view());
+          Image whole(layout.columns * width, layout.rows * height, channels);
+          for (const LayoutCell& cell : layout.cells) {
+            copy_to_cell(cell, charts[static_cast<std::size_t>(cell.chart)],
+                         cell_of(layout, cell, whole.view()));
+          }
+          for (const int band : {1, 3, 7, 10, whole.height()}) {
+            // What the memory held before must not show.
+            Image drawn = numbered_chart(99, whole.width(), whole.height(), channels);
+            for (int y = 0; y < whole.height(); y += band) {
+              draw_rows(layout, charts, y,
+                        drawn.view().part(0, y, whole.width(), std::min(band, whole.height() - y)));
+            }
+            for (int y = 0; y < whole.height(); ++y) {
+              EXPECT_TRUE(
+                  std::equal(whole.at(0, y), whole.at(0, y) + whole.width() * channels, drawn.at(0, y)))
+                  << p.name() << ":" << layout.name << " row " << y << " in bands of " << band;
+            }
+          }
+        }
+      }
+    }
   }
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <deque>
+#include <functional>
 #include <vector>
 
 #include "welkin/base/error.h"
@@ -40,48 +42,50 @@ io::WriteOptions declared(const io::Capabilities& format, const Map& map, const 
   return image;
 }
 
-/// The pictures of a map in a layout, one after the other. Charts that lie in them as they are need no copy.
+/// The pictures of maps in a layout. Charts that lie in them as they are need no copy, and others are turned
+/// when their rows are written; only safety borders are made before.
 class Pictures {
  public:
   Pictures(const Layout& placed, int border) : placed_(placed), border_(border) {}
 
-  /// The picture of one cell, which this keeps until the next `drop`.
-  ImageView<const float> of_cell(const Map& map, const LayoutCell& cell) {
-    if (is_plain(cell)) return map.level.chart(cell.chart);
-    const int width = map.width() + 2 * border_, height = map.height() + 2 * border_;
+  /// The picture of one cell, as a part without a name or a place. Refers to the map, and to what this keeps
+  /// until the next `drop`.
+  io::WritePart of_cell(const Map& map, const LayoutCell& cell) {
+    const ImageView<const float> chart = chart_of(map, cell.chart);
+    if (!cell.mirrored && cell.quarter_turns == 0) return {"", chart, map.channel_names};
     const bool on_its_side = (cell.quarter_turns & 1) != 0;
-    Image& picture =
-        kept_.emplace_back(on_its_side ? height : width, on_its_side ? width : height, map.channels());
-    draw(map, cell, picture.view());
-    return picture.view();
+    return drawn(map, on_its_side ? chart.height : chart.width, on_its_side ? chart.width : chart.height,
+                 [&cell, chart](int y, ImageView<float> rows) { copy_to_cell_rows(cell, chart, y, rows); });
   }
 
   /// The picture of all cells.
-  ImageView<const float> of_all(const Map& map) {
-    if (placed_.cells.size() == 1 && is_plain(placed_.cells[0])) return map.level.chart(0);
-    const int width = map.width() + 2 * border_, height = map.height() + 2 * border_;
-    Image& picture = kept_.emplace_back(placed_.columns * width, placed_.rows * height, map.channels());
-    for (const LayoutCell& cell : placed_.cells) {
-      draw(map, cell, cell_of(placed_, cell, picture.view()));
-    }
-    return picture.view();
+  io::WritePart of_all(const Map& map) {
+    if (placed_.cells.size() == 1) return of_cell(map, placed_.cells[0]);
+    std::vector<ImageView<const float>> charts;
+    for (int chart = 0; chart < map.charts(); ++chart) charts.push_back(chart_of(map, chart));
+    const int width = charts.front().width * placed_.columns, height = charts.front().height * placed_.rows;
+    return drawn(map, width, height, [&layout = placed_, charts](int y, ImageView<float> rows) {
+      draw_rows(layout, charts, y, rows);
+    });
   }
 
-  void drop() { kept_.clear(); }
+  void drop() { bordered_.clear(); }
 
  private:
-  bool is_plain(const LayoutCell& cell) const {
-    return !cell.mirrored && cell.quarter_turns == 0 && border_ == 0;
+  ImageView<const float> chart_of(const Map& map, int chart) {
+    if (border_ == 0) return map.level.chart(chart);
+    return bordered_.emplace_back(with_safety_border(map, chart, border_)).view();
   }
-  void draw(const Map& map, const LayoutCell& cell, ImageView<float> picture) const {
-    if (border_ == 0) return copy_to_cell(cell, map.level.chart(cell.chart), picture);
-    const Image chart = with_safety_border(map, cell.chart, border_);
-    copy_to_cell(cell, chart.view(), picture);
+  static io::WritePart drawn(const Map& map, int width, int height,
+                             std::function<void(int, ImageView<float>)> draw) {
+    io::WritePart part{"", {nullptr, width, height, map.channels(), 0}, map.channel_names};
+    part.draw = std::move(draw);
+    return part;
   }
 
   const Layout& placed_;
   int border_;
-  std::vector<Image> kept_;
+  std::deque<Image> bordered_;
 };
 
 }  // namespace
@@ -154,8 +158,7 @@ io::WriteReport map_file::write_levels(const Destination& destination, std::span
         placed.cells.size(),
         [&](std::size_t i) {
           pictures.drop();
-          return io::WriteFile{chart_path(destination.path, names[i]),
-                               {{"", pictures.of_cell(finest, placed.cells[i]), finest.channel_names}}};
+          return io::WriteFile{chart_path(destination.path, names[i]), {pictures.of_cell(finest, placed.cells[i])}};
         },
         image);
   }
@@ -165,13 +168,17 @@ io::WriteReport map_file::write_levels(const Destination& destination, std::span
   for (std::size_t level = 0; level < levels.size(); ++level) {
     const Map& map = *levels[level];
     if (placed.kind == LayoutKind::picture) {
-      parts.push_back({"", pictures.of_all(map), map.channel_names, static_cast<int>(level)});
+      parts.push_back(pictures.of_all(map));
+      parts.back().level = static_cast<int>(level);
       continue;
     }
     for (std::size_t i = 0; i < placed.cells.size(); ++i) {
       const int index = static_cast<int>(i);
-      parts.push_back({texture ? "" : names[i], pictures.of_cell(map, placed.cells[i]), map.channel_names,
-                       static_cast<int>(level), texture && !cube ? index : 0, texture && cube ? index : 0});
+      io::WritePart& part = parts.emplace_back(pictures.of_cell(map, placed.cells[i]));
+      part.name = texture ? "" : names[i];
+      part.level = static_cast<int>(level);
+      part.layer = texture && !cube ? index : 0;
+      part.face = texture && cube ? index : 0;
     }
   }
   if (destination.sink != nullptr)

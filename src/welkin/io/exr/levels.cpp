@@ -11,6 +11,7 @@
 #include "welkin/base/error.h"
 #include "welkin/io/exr/attributes.h"
 #include "welkin/io/exr/convert.h"
+#include "welkin/io/part_rows.h"
 
 namespace welkin::io::exr {
 namespace {
@@ -106,12 +107,18 @@ WriteReport write_levels(Imf::OStream& stream, Imf::Header header, std::span<con
 
   Imf::TiledOutputFile output(stream, header, threads);
   WriteReport report, of_averages;
-  for (int level = 0; level < given; ++level)
-    write_level(output, level, levels[0], levels[static_cast<std::size_t>(level)].image, type, report);
-  Image average;
+  Image drawn, average;
+  ImageView<const float> finer;
+  for (int level = 0; level < given; ++level) {
+    const WritePart& part = levels[static_cast<std::size_t>(level)];
+    drawn = {};
+    finer = draw_rows(part, 0, part.image.height, drawn);
+    write_level(output, level, levels[0], finer, type, report);
+  }
   for (int level = given; level < most; ++level) {
-    average = halved(level == given ? levels.back().image : ImageView<const float>(average.view()));
-    write_level(output, level, levels[0], average.view(), type, of_averages);
+    average = halved(finer);
+    finer = average.view();
+    write_level(output, level, levels[0], finer, type, of_averages);
   }
   return report;
 }

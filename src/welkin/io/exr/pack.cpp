@@ -4,7 +4,7 @@
 #include <ImfVersion.h>
 #include <libdeflate.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -12,8 +12,13 @@
 #include <new>
 #include <numeric>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "welkin/base/error.h"
 #include "welkin/io/exr/convert.h"
+#include "welkin/io/part_rows.h"
 
 namespace welkin::io::exr {
 namespace {
@@ -41,79 +46,186 @@ bool has_long_name(const Imf::Header& header) {
   return false;
 }
 
-/// A part as chunks of lines.
+/// A part as chunks of lines, and pieces of several chunks, which are made at a time.
 struct Layout {
   const WritePart& part;
   StoredType type;
+  Compression compression;
+  int number;              ///< of the part, or kOnlyPart
   int lines;               ///< of a chunk
+  int piece;               ///< chunks of a piece
   std::vector<int> order;  ///< channels of the image by name
 
-  Layout(const WritePart& written, StoredType stored, Compression compression)
-      : part(written), type(stored), lines(lines_of_chunk(compression)), order(part.channels.size()) {
+  Layout(const WritePart& written, StoredType stored, Compression packed, int part_number)
+      : part(written),
+        type(stored),
+        compression(packed),
+        number(part_number),
+        lines(lines_of_chunk(packed)),
+        order(part.channels.size()) {
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
       return part.channels[static_cast<std::size_t>(a)] < part.channels[static_cast<std::size_t>(b)];
     });
+    // What is read, made and written of a piece stays in the second-level cache.
+    constexpr std::uint64_t kPieceBytes = 1 << 19;
+    piece = static_cast<int>(kPieceBytes / (line_bytes() * static_cast<std::uint64_t>(lines))) + 1;
   }
   int chunks() const { return (part.image.height - 1) / lines + 1; }
+  std::uint64_t channel_bytes() const {
+    return static_cast<std::uint64_t>(part.image.width) * bytes_of(type);
+  }
+  std::uint64_t line_bytes() const { return channel_bytes() * order.size(); }
 };
 
-/// A chunk while it is made, and what the file will hold of it.
-struct Chunk {
-  std::vector<float> line;
-  std::vector<std::byte> raw, packed;
+/// Some chunks one after the other, as the file holds them.
+struct Piece {
+  std::vector<std::byte> bytes;  ///< the first `size` count
+  std::size_t size = 0;
+  std::vector<std::size_t> chunks;  ///< where each begins
   WriteReport report;
 };
 
-void fill(const Layout& layout, int first_line, Chunk& chunk) {
-  const ImageView<const float>& image = layout.part.image;
-  const int lines = std::min(layout.lines, image.height - first_line);
-  const auto width = static_cast<std::size_t>(image.width);
-  const std::size_t channel_bytes = width * bytes_of(layout.type);
-  chunk.line.resize(width);
-  chunk.raw.resize(static_cast<std::size_t>(lines) * layout.order.size() * channel_bytes);
-  chunk.report = {};
-  std::byte* to = chunk.raw.data();
-  for (int y = first_line; y < first_line + lines; ++y)
-    for (const int channel : layout.order) {
-      const float* from = image.row(y) + channel;
-      for (std::size_t x = 0; x < width; ++x, from += image.channels) chunk.line[x] = *from;
-      convert_from_float(chunk.line, layout.type, to, chunk.report);
-      to += channel_bytes;
+/// Takes interleaved texels apart: channel c goes to planes[c], of any alignment.
+void split_channels(const float* texels, int channels, std::size_t count, std::byte* const* planes) {
+  std::size_t x = 0;
+#ifdef __SSE2__
+  const auto store = [&](int channel, __m128 values) {
+    _mm_storeu_ps(reinterpret_cast<float*>(planes[channel] + x * sizeof(float)), values);
+  };
+  if (channels == 3) {
+    for (; x + 4 <= count; x += 4, texels += 12) {
+      const __m128 r0g0b0r1 = _mm_loadu_ps(texels), g1b1r2g2 = _mm_loadu_ps(texels + 4),
+                   b2r3g3b3 = _mm_loadu_ps(texels + 8);
+      const __m128 g0b0g1b1 = _mm_shuffle_ps(r0g0b0r1, g1b1r2g2, _MM_SHUFFLE(1, 0, 2, 1));
+      const __m128 r2g2b2r3 = _mm_shuffle_ps(g1b1r2g2, b2r3g3b3, _MM_SHUFFLE(1, 0, 3, 2));
+      const __m128 g2g2g3g3 = _mm_shuffle_ps(r2g2b2r3, b2r3g3b3, _MM_SHUFFLE(2, 2, 1, 1));
+      const __m128 b2b2b3b3 = _mm_shuffle_ps(r2g2b2r3, b2r3g3b3, _MM_SHUFFLE(3, 3, 2, 2));
+      store(0, _mm_shuffle_ps(r0g0b0r1, r2g2b2r3, _MM_SHUFFLE(3, 0, 3, 0)));
+      store(1, _mm_shuffle_ps(g0b0g1b1, g2g2g3g3, _MM_SHUFFLE(2, 0, 2, 0)));
+      store(2, _mm_shuffle_ps(g0b0g1b1, b2b2b3b3, _MM_SHUFFLE(2, 0, 3, 1)));
     }
-}
-
-/// Writes the chunks of a part, and returns where each lies.
-std::vector<std::uint64_t> write_chunks(Imf::OStream& stream, const Layout& layout, Compression compression,
-                                        int part_number, WriteReport& report) {
-  tbb::enumerable_thread_specific<ChunkPacker> packers;
-  const int chunks = layout.chunks();
-  const int batch = std::min(chunks, 4 * tbb::this_task_arena::max_concurrency() * (16 / layout.lines));
-  std::vector<Chunk> made(static_cast<std::size_t>(batch));
-  std::vector<std::uint64_t> offsets;
-  for (int first = 0; first < chunks; first += batch) {
-    const int count = std::min(batch, chunks - first);
-    tbb::parallel_for(0, count, [&](int i) {
-      Chunk& chunk = made[static_cast<std::size_t>(i)];
-      fill(layout, (first + i) * layout.lines, chunk);
-      const auto packed = packers.local().pack(compression, chunk.raw);
-      if (packed.data() == chunk.raw.data()) {
-        chunk.packed.swap(chunk.raw);
-      } else {
-        chunk.packed.assign(packed.begin(), packed.end());
-      }
-    });
-    for (int i = 0; i < count; ++i) {
-      const Chunk& chunk = made[static_cast<std::size_t>(i)];
-      offsets.push_back(stream.tellp());
-      if (part_number != kOnlyPart) put(stream, std::int32_t{part_number});
-      put(stream, static_cast<std::int32_t>((first + i) * layout.lines));
-      put(stream, static_cast<std::int32_t>(chunk.packed.size()));
-      stream.write(reinterpret_cast<const char*>(chunk.packed.data()), static_cast<int>(chunk.packed.size()));
-      report = added(report, chunk.report);
+  } else if (channels == 4) {
+    for (; x + 4 <= count; x += 4, texels += 16) {
+      __m128 rows[4];
+      for (int i = 0; i < 4; ++i) rows[i] = _mm_loadu_ps(texels + 4 * i);
+      _MM_TRANSPOSE4_PS(rows[0], rows[1], rows[2], rows[3]);
+      for (int c = 0; c < 4; ++c) store(c, rows[c]);
     }
   }
-  return offsets;
+#endif
+  for (; x < count; ++x)
+    for (int c = 0; c < channels; ++c, ++texels)
+      std::memcpy(planes[c] + x * sizeof(float), texels, sizeof(float));
+}
+
+/// Makes pieces, with working memory for one thread.
+class PieceMaker {
+ public:
+  explicit PieceMaker(const Layout& layout) : layout_(layout), rows_(layout.part) {}
+
+  /// The piece that begins with the chunk `first`.
+  void make(int first, Piece& piece) {
+    const int height = layout_.part.image.height, first_line = first * layout_.lines;
+    const int count = std::min(layout_.piece, layout_.chunks() - first);
+    const ImageView<const float> lines =
+        rows_.rows(first_line, std::min(count * layout_.lines, height - first_line));
+    const std::size_t header = (layout_.number == kOnlyPart ? 2 : 3) * sizeof(std::int32_t);
+    const std::size_t largest = static_cast<std::size_t>(lines.height) * layout_.line_bytes() +
+                                static_cast<std::size_t>(count) * header;
+    if (piece.bytes.size() < largest) piece.bytes.resize(largest);
+    piece.chunks.clear();
+    piece.report = {};
+    std::byte* to = piece.bytes.data();
+    for (int y = 0; y < lines.height; y += layout_.lines) {
+      piece.chunks.push_back(static_cast<std::size_t>(to - piece.bytes.data()));
+      const std::size_t size = pack(lines.part(0, y, lines.width, std::min(layout_.lines, lines.height - y)),
+                                    to + header, piece.report);
+      if (layout_.number != kOnlyPart) to = put_number(to, layout_.number);
+      to = put_number(to, first_line + y);
+      to = put_number(to, static_cast<std::int32_t>(size)) + size;
+    }
+    piece.size = static_cast<std::size_t>(to - piece.bytes.data());
+  }
+
+ private:
+  static std::byte* put_number(std::byte* to, std::int32_t number) {
+    std::memcpy(to, &number, sizeof number);
+    return to + sizeof number;
+  }
+
+  /// A chunk, packed; returns its bytes.
+  std::size_t pack(ImageView<const float> lines, std::byte* to, WriteReport& report) {
+    const std::size_t size = static_cast<std::size_t>(lines.height) * layout_.line_bytes();
+    if (layout_.compression == Compression::none) {
+      store(lines, to, report);
+      return size;
+    }
+    raw_.resize(size);
+    store(lines, raw_.data(), report);
+    const auto packed = packer_.pack(layout_.compression, raw_);
+    std::memcpy(to, packed.data(), packed.size());
+    return packed.size();
+  }
+
+  /// For each line, for each channel by name, the line's values.
+  void store(ImageView<const float> lines, std::byte* to, WriteReport& report) {
+    const auto width = static_cast<std::size_t>(lines.width);
+    const bool converts = layout_.type != StoredType::float32;
+    if (converts) values_.resize(width * layout_.order.size());
+    planes_.resize(layout_.order.size());
+    for (int y = 0; y < lines.height; ++y, to += layout_.line_bytes()) {
+      std::byte* const first = converts ? reinterpret_cast<std::byte*>(values_.data()) : to;
+      for (std::size_t i = 0; i < planes_.size(); ++i)
+        planes_[static_cast<std::size_t>(layout_.order[i])] = first + i * width * sizeof(float);
+      split_channels(lines.row(y), lines.channels, width, planes_.data());
+      if (converts) convert_from_float(values_, layout_.type, to, report);
+    }
+  }
+
+  const Layout& layout_;
+  PartRows rows_;
+  ChunkPacker packer_;
+  std::vector<std::byte> raw_;
+  std::vector<float> values_;
+  std::vector<std::byte*> planes_;
+};
+
+/// Writes the chunks of a part, and adds where each lies.
+void write_chunks(Imf::OStream& stream, const Layout& layout, std::vector<std::uint64_t>& offsets,
+                  WriteReport& report) {
+  tbb::enumerable_thread_specific<PieceMaker> makers([&] { return PieceMaker(layout); });
+  const auto at_once = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency());
+  // Pieces leave in order, so those in work are neighbours and no two share a slot.
+  std::vector<Piece> pieces(at_once);
+  int next = 0;
+  const auto choose = [&](tbb::flow_control& control) {
+    const int first = next;
+    if (first >= layout.chunks()) {
+      control.stop();
+    } else {
+      next += std::min(layout.piece, layout.chunks() - first);
+    }
+    return first;
+  };
+  const auto make = [&](int first) {
+    Piece& piece = pieces[static_cast<std::size_t>(first / layout.piece) % at_once];
+    makers.local().make(first, piece);
+    return &piece;
+  };
+  const auto write = [&](Piece* piece) {
+    const std::uint64_t begin = stream.tellp();
+    for (const std::size_t chunk : piece->chunks) offsets.push_back(begin + chunk);
+    constexpr std::size_t kMaxWrite = std::size_t{1} << 30;
+    for (std::size_t at = 0; at < piece->size; at += kMaxWrite)
+      stream.write(reinterpret_cast<const char*>(piece->bytes.data()) + at,
+                   static_cast<int>(std::min(kMaxWrite, piece->size - at)));
+    report = added(report, piece->report);
+  };
+  tbb::parallel_pipeline(at_once,
+                         tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, choose) &
+                             tbb::make_filter<int, Piece*>(tbb::filter_mode::parallel, make) &
+                             tbb::make_filter<Piece*, void>(tbb::filter_mode::serial_in_order, write));
 }
 
 }  // namespace
@@ -162,9 +274,10 @@ WriteReport write_packed(Imf::OStream& stream, std::span<const Imf::Header> head
   const bool multi_part = parts.size() > 1;
   std::vector<Layout> layouts;
   for (const WritePart& part : parts) {
-    layouts.emplace_back(part, type, compression);
-    const auto line = static_cast<std::uint64_t>(part.image.width) * part.channels.size() * bytes_of(type);
-    if (line * static_cast<std::uint64_t>(layouts.back().lines) > std::uint64_t{1} << 30)
+    const int number = multi_part ? static_cast<int>(layouts.size()) : kOnlyPart;
+    layouts.emplace_back(part, type, compression, number);
+    if (layouts.back().line_bytes() * static_cast<std::uint64_t>(layouts.back().lines) > std::uint64_t{1}
+                                                                                             << 30)
       throw Error(ErrorKind::too_large,
                   "a chunk of " + std::to_string(layouts.back().lines) + " lines is more than 1 GiB");
   }
@@ -186,11 +299,7 @@ WriteReport write_packed(Imf::OStream& stream, std::span<const Imf::Header> head
 
   WriteReport report;
   std::vector<std::uint64_t> offsets;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const int number = multi_part ? static_cast<int>(i) : kOnlyPart;
-    const auto of_part = write_chunks(stream, layouts[i], compression, number, report);
-    offsets.insert(offsets.end(), of_part.begin(), of_part.end());
-  }
+  for (const Layout& layout : layouts) write_chunks(stream, layout, offsets, report);
   stream.seekp(tables);
   for (const std::uint64_t offset : offsets) put(stream, offset);
   return report;

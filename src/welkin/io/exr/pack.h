@@ -37,7 +37,7 @@ class ChunkPacker {
 };
 
 /// Writes a whole file: `headers` are complete, one per part, and agree with `parts`. Chunks are packed by
-/// TBB's workers and written in order, a few per worker in memory.
+/// TBB's workers and written in order, half a megabyte at a time and two of these per worker in memory.
 WriteReport write_packed(Imf::OStream& stream, std::span<const Imf::Header> headers,
                          std::span<const WritePart> parts, StoredType type, Compression compression);
 

@@ -263,7 +263,8 @@ Format exr_format() {
            .attributes = true},
           exr::is_exr,
           exr::open_exr,
-          exr::write_exr};
+          exr::write_exr,
+          true};
 }
 
 }  // namespace welkin::io

@@ -29,6 +29,7 @@
 #include "welkin/io/exr/levels.h"
 #include "welkin/io/exr/library.h"
 #include "welkin/io/exr/pack.h"
+#include "welkin/io/part_rows.h"
 
 namespace welkin::io::exr {
 namespace {
@@ -173,7 +174,7 @@ void write_rows(Imf::OutputPart& output, const WritePart& part, StoredType type,
 /// Converts and writes in bands that keep every thread's compressor busy.
 WriteReport write_part(Imf::OutputPart& output, const WritePart& part, StoredType type, int threads) {
   const ImageView<const float>& image = part.image;
-  if (type == StoredType::float32) {
+  if (type == StoredType::float32 && !part.draw) {
     write_rows(output, part, type, image.data, 0, image.height,
                static_cast<std::size_t>(image.row_stride) * sizeof(float));
     return {};
@@ -183,15 +184,22 @@ WriteReport write_part(Imf::OutputPart& output, const WritePart& part, StoredTyp
   const std::size_t row_values =
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
   const std::size_t row_bytes = row_values * bytes_of(type);
-  std::vector<std::byte> converted(row_bytes * static_cast<std::size_t>(band));
+  Image drawn;
+  std::vector<std::byte> converted(type == StoredType::float32 ? 0
+                                                               : row_bytes * static_cast<std::size_t>(band));
   WriteReport report;
   for (int y = 0; y < image.height; y += band) {
     const int rows = std::min(band, image.height - y);
+    const ImageView<const float> from = draw_rows(part, y, rows, drawn);
+    if (type == StoredType::float32) {
+      write_rows(output, part, type, from.data, y, rows, row_bytes);
+      continue;
+    }
     const WriteReport of_band = tbb::parallel_reduce(
         tbb::blocked_range<int>(0, rows, 16), WriteReport{},
         [&](const tbb::blocked_range<int>& range, WriteReport sum) {
           for (int row = range.begin(); row < range.end(); ++row)
-            convert_from_float({image.row(y + row), row_values}, type,
+            convert_from_float({from.row(row), row_values}, type,
                                converted.data() + row_bytes * static_cast<std::size_t>(row), sum);
           return sum;
         },

@@ -168,7 +168,8 @@ Format hdr_format() {
            .attributes = true},
           matches,
           open_hdr,
-          write_hdr};
+          write_hdr,
+          true};
 }
 
 }  // namespace welkin::io

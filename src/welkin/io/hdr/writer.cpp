@@ -9,6 +9,7 @@
 #include "welkin/io/encode_pixels.h"
 #include "welkin/io/hdr/lines.h"
 #include "welkin/io/hdr/rgbe.h"
+#include "welkin/io/part_rows.h"
 #include "welkin/io/text_attributes.h"
 #include "welkin/io/transfer.h"
 #include "welkin/io/write_choices.h"
@@ -37,16 +38,18 @@ struct EncodedRows {
 class RowEncoder {
  public:
   RowEncoder(const WritePart& part, HdrCoding coding, bool srgb)
-      : image_(part.image), order_(channel_order(part, Alpha::none, "HDR")), coding_(coding), srgb_(srgb) {}
+      : part_(part), order_(channel_order(part, Alpha::none, "HDR")), coding_(coding), srgb_(srgb) {}
 
   EncodedRows encode(int first, int end) const {
     EncodedRows rows;
-    HdrPlanes planes(image_.width);
-    for (int y = first; y < end; ++y) {
-      for (int x = 0; x < image_.width; ++x) {
+    PartRows source(part_);
+    const ImageView<const float> image = source.rows(first, end - first);
+    HdrPlanes planes(image.width);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
         float rgb[3] = {};
         for (std::size_t k = 0; k < order_.size(); ++k) {
-          const float value = image_.at(x, y)[order_[k]];
+          const float value = image.at(x, y)[order_[k]];
           rgb[k] = to_rgbe_range(srgb_ ? static_cast<float>(linear_to_srgb(value)) : value, rows.report);
         }
         if (order_.size() == 1) rgb[1] = rgb[2] = rgb[0];
@@ -60,7 +63,7 @@ class RowEncoder {
   }
 
  private:
-  ImageView<const float> image_;
+  const WritePart& part_;
   std::vector<int> order_;
   HdrCoding coding_;
   bool srgb_;

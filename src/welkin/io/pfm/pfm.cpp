@@ -13,6 +13,7 @@
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/encode_pixels.h"
 #include "welkin/io/format.h"
+#include "welkin/io/part_rows.h"
 #include "welkin/io/write_choices.h"
 
 /// Portable float maps: `PF` or `Pf`, width, height, a scale factor, one white space, then rows of floats
@@ -178,13 +179,15 @@ WriteReport write_pfm(ByteSink& file, std::span<const WritePart> parts, const Wr
   constexpr std::size_t kBatchBytes = std::size_t{1} << 20;
   const int rows_of_batch = static_cast<int>(std::max<std::size_t>(1, kBatchBytes / row_bytes));
   std::vector<std::byte> batch;
+  Image drawn;
   WriteReport report;
   for (int bottom = image.height; bottom > 0; bottom -= rows_of_batch) {
     const int top = std::max(0, bottom - rows_of_batch);
     batch.resize(static_cast<std::size_t>(bottom - top) * row_bytes);
+    const ImageView<const float> rows = draw_rows(part, top, bottom - top, drawn);
     for (int y = top; y < bottom; ++y) {
       std::byte* row = batch.data() + static_cast<std::size_t>(bottom - 1 - y) * row_bytes;
-      encoder.encode(image.row(y), image.channels, image.width, row, report);
+      encoder.encode(rows.row(y - top), image.channels, image.width, row, report);
     }
     if constexpr (std::endian::native == std::endian::big) {
       for (std::size_t i = 0; i < batch.size(); i += 4) std::reverse(&batch[i], &batch[i] + 4);
@@ -206,7 +209,8 @@ Format pfm_format() {
            .negative = true},
           matches,
           open_pfm,
-          write_pfm};
+          write_pfm,
+          true};
 }
 
 }  // namespace welkin::io
