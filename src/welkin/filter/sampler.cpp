@@ -19,7 +19,8 @@ namespace {
 }
 
 void check_room(std::size_t room, std::size_t directions, int channels) {
-  if (room / static_cast<std::size_t>(channels) < directions) {
+  const auto each = static_cast<std::size_t>(channels);
+  if (directions == 1 ? room < each : room / each < directions) {
     refuse("there is room for " + std::to_string(room) + " values of " + std::to_string(channels) +
            " channels along " + std::to_string(directions) + " directions");
   }
@@ -33,9 +34,10 @@ void check_levels(std::span<const float> levels, std::size_t directions, int cou
   bool all = true;
   for (const float level : levels) all &= level >= 0 && level <= last;
   if (all) return;
-  refuse_level(static_cast<double>(*std::find_if(levels.begin(), levels.end(),
-                                                 [&](float level) { return !(level >= 0 && level <= last); })),
-               count);
+  refuse_level(
+      static_cast<double>(*std::find_if(levels.begin(), levels.end(),
+                                        [&](float level) { return !(level >= 0 && level <= last); })),
+      count);
 }
 
 StridedDirections strided(const Vec3<float>* first) {
@@ -93,7 +95,8 @@ std::shared_ptr<const T> borrowed(const T& object) {
   return {std::shared_ptr<void>(), &object};
 }
 
-std::shared_ptr<const Sampler::State> state_of(std::shared_ptr<const Map> map, const SamplerOptions& options) {
+std::shared_ptr<const Sampler::State> state_of(std::shared_ptr<const Map> map,
+                                               const SamplerOptions& options) {
   if (!map) refuse("there is no map");
   if (options.levels < 0) refuse("a pyramid of " + std::to_string(options.levels) + " levels");
   auto state = std::make_shared<Sampler::State>(map, *map, options);
@@ -166,26 +169,26 @@ int Sampler::levels() const {
 void Sampler::look_up(const Vec3<float>& direction, std::span<float> radiance, double level) const {
   check_room(radiance.size(), 1, state_->channels());
   const auto room = static_cast<std::size_t>(state_->channels());
-  state_->look_up(strided(&direction), 1, state_->blend_at(level), radiance.data(), room);
+  state_->look_up_one(strided(&direction), state_->blend_at(level), radiance.data(), room);
 }
 
 void Sampler::look_up(const Vec3d& direction, std::span<float> radiance, double level) const {
   check_room(radiance.size(), 1, state_->channels());
   const auto room = static_cast<std::size_t>(state_->channels());
-  state_->look_up(&direction, 1, state_->blend_at(level), radiance.data(), room);
+  state_->look_up_one(direction, state_->blend_at(level), radiance.data(), room);
 }
 
 std::array<float, 3> Sampler::rgb(const Vec3<float>& direction, double level) const {
   if (channels() < 3) refuse("a map of " + std::to_string(channels()) + " channels has no R, G and B");
   float radiance[kMostChannels + 8];
-  state_->look_up(strided(&direction), 1, state_->blend_at(level), radiance, std::size(radiance));
+  state_->look_up_one(strided(&direction), state_->blend_at(level), radiance, std::size(radiance));
   return {radiance[0], radiance[1], radiance[2]};
 }
 
 std::array<float, 3> Sampler::rgb(const Vec3d& direction, double level) const {
   if (channels() < 3) refuse("a map of " + std::to_string(channels()) + " channels has no R, G and B");
   float radiance[kMostChannels + 8];
-  state_->look_up(&direction, 1, state_->blend_at(level), radiance, std::size(radiance));
+  state_->look_up_one(direction, state_->blend_at(level), radiance, std::size(radiance));
   return {radiance[0], radiance[1], radiance[2]};
 }
 

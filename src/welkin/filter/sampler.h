@@ -16,8 +16,8 @@ struct SamplerOptions {
   /// Bicubic and Lanczos results are limited to near the range of their texels, so that positive radiance
   /// stays positive (docs/filtering.md, "Overshoot"), or left as they are.
   bool allow_ringing = false;
-  /// Levels of a map's own pyramid, weighted by solid angle, that can be looked up, the map itself included; at
-  /// most as many as there are down to one texel, and 0 is all of them. Those of a chain are its own.
+  /// Levels of a map's own pyramid, weighted by solid angle, that can be looked up, the map itself included;
+  /// at most as many as there are down to one texel, and 0 is all of them. Those of a chain are its own.
   int levels = 1;
 };
 
@@ -28,13 +28,13 @@ struct DirectionArrays {
 
 /// Looks radiance up along directions: a map (or a chain), its pyramid and a filter.
 ///
-/// Never changes after it is made; all of it can be used from many threads at once. Cheap to copy: copies share
-/// the pixels. Look-ups take no memory.
+/// Never changes after it is made; all of it can be used from many threads at once. Cheap to copy: copies
+/// share the pixels. Look-ups take no memory.
 ///
 /// **Directions** are the world's: the map's `orientation` is applied. They have any length > 0, down to the
 /// smallest number and up to the largest. Along a direction that the map does not show, and along one that is
-/// zero or not finite, radiance is 0; `covers` tells. **Levels** are real numbers, 0 is the finest: 2.5 is the
-/// mean of levels 2 and 3, and between two levels radiance is linear.
+/// zero or not finite, radiance is 0; `covers` tells. **Levels** are real numbers, 0 is the finest: 2.5 is
+/// the mean of levels 2 and 3, and between two levels radiance is linear.
 ///
 /// **Results** are channels() values for each direction, interleaved; `radiance` has room for that many at
 /// least, and what is past them stays as it was. It must not overlap the directions.
@@ -44,11 +44,12 @@ struct DirectionArrays {
 /// A float direction gives the same bits alone and among others, in either memory layout (with
 /// Filter::lanczos: within 1e-6 of the largest value of the texels read).
 ///
-/// Throws Error: a level that is not a number from 0 to levels() − 1; `radiance` too short; arrays of different
-/// lengths. It is thrown before anything is written.
+/// Throws Error: a level that is not a number from 0 to levels() − 1; `radiance` too short; arrays of
+/// different lengths. It is thrown before anything is written.
 class Sampler {
  public:
-  /// Move the map in; the borders of its charts are filled (fill_borders), as those of maps that were read are.
+  /// Move the map in; the borders of its charts are filled (fill_borders), as those of maps that were read
+  /// are.
   explicit Sampler(Map map, const SamplerOptions& options = {});
   /// The map is shared, and must not change any more. Throws Error when there is none.
   explicit Sampler(std::shared_ptr<const Map> map, const SamplerOptions& options = {});

@@ -32,7 +32,8 @@ struct AimedDirections {
 /// overflows or loses digits (by less for components of 2^126 or more and 2^−126 or less), and turns it.
 /// Values of `to` up to the next whole pack are written. Returns whether all are usable.
 ///
-/// A direction gives the same bits alone, among others and in any pack. Turning adds an error of at most 2e-7.
+/// A direction gives the same bits alone, among others and in any pack. Turning adds an error of at most
+/// 2e-7.
 using Aim = bool (*)(const FloatOrientation& orientation, const StridedDirections& from,
                      const AimedDirections& to, std::size_t count);
 

@@ -19,10 +19,10 @@ struct AimOf {
     bool all = true;
     std::size_t start = 0;
     for (; start + kSize <= count; start += kSize) {
-      all &= from.stride == 1 ? aim(orientation, Pack::load_unaligned(from.x + start),
-                                    Pack::load_unaligned(from.y + start),
-                                    Pack::load_unaligned(from.z + start), to, start)
-                              : aim_strided(orientation, from, to, start, kSize);
+      all &= from.stride == 1
+                 ? aim(orientation, Pack::load_unaligned(from.x + start),
+                       Pack::load_unaligned(from.y + start), Pack::load_unaligned(from.z + start), to, start)
+                 : aim_strided(orientation, from, to, start, kSize);
     }
     if (start < count) all &= aim_strided(orientation, from, to, start, count - start);
     return all;
@@ -44,8 +44,8 @@ struct AimOf {
 
   static bool aim(const FloatOrientation& orientation, Pack x, Pack y, Pack z, const AimedDirections& to,
                   std::size_t at) {
-    // The exponent of the longest component, as a power of two; then the sum of the magnitudes is 1 to 6 (less
-    // for the shortest, to 24 for the longest), 0 for a zero, and infinite or NaN where a component is.
+    // The exponent of the longest component, as a power of two; then the sum of the magnitudes is 1 to 6
+    // (less for the shortest, to 24 for the longest), 0 for a zero, and infinite or NaN where a component is.
     const Pack longest = xsimd::max(xsimd::abs(x), xsimd::max(xsimd::abs(y), xsimd::abs(z)));
     const Pack power = longest & Pack(__builtin_inff());
     const Pack scale = Pack(1.0f) / xsimd::min(xsimd::max(power, Pack(0x1p-126f)), Pack(0x1p126f));

@@ -39,6 +39,9 @@ class Sampler::State {
                float* radiance, std::size_t room) const;
   void look_up(const Vec3d* directions, std::size_t count, const LevelBlend& level, float* radiance,
                std::size_t room) const;
+  void look_up_one(const StridedDirections& direction, const LevelBlend& level, float* radiance,
+                   std::size_t room) const;
+  void look_up_one(const Vec3d& direction, const LevelBlend& level, float* radiance, std::size_t room) const;
   /// Each at a level of its own, all of which are valid.
   void look_up(const StridedDirections& directions, std::size_t count, const float* levels,
                float* radiance) const;
@@ -57,12 +60,15 @@ class Sampler::State {
     const void* self;
     bool same_positions;  ///< as the level before: the parameterization does not depend on the size
   };
+  template <std::size_t kSize>
   struct Tile;
   struct Group;
 
-  bool locate(int level, const StridedDirections& directions, std::size_t count, Tile& tile) const;
-  bool locate(int level, const Vec3d* directions, std::size_t count, Tile& tile) const;
-  template <class Directions>
+  template <std::size_t kSize>
+  bool locate(int level, const StridedDirections& directions, std::size_t count, Tile<kSize>& tile) const;
+  template <std::size_t kSize>
+  bool locate(int level, const Vec3d* directions, std::size_t count, Tile<kSize>& tile) const;
+  template <std::size_t kSize, class Directions>
   void look_up_tile(const Directions& directions, std::size_t count, const LevelBlend& level, float* radiance,
                     std::size_t room) const;
   template <class Directions>
