@@ -37,7 +37,7 @@ struct RingingFetch {
 };
 
 struct FetchKernels {
-  Fetch nearest;
+  Fetch nearest;          ///< of the chart, never of its border
   Fetch bilinear;         ///< tent over 2×2 texels
   Fetch b_spline;         ///< cubic B-spline, 4×4 texels that hold its coefficients, not values
   RingingFetch bicubic;   ///< Keys 1981, a = −½ (Catmull–Rom), 4×4 texels

@@ -37,11 +37,11 @@ struct Positions {
   Pack fx, fy;
 
   Positions(const LevelView& level, const float* charts, const float* us, const float* vs, float offset) {
-    // NaN becomes the lowest position, so every one stays inside the border.
+    // NaN becomes the lowest position, so every one stays inside the border; without an offset, in the chart.
     const auto locate = [offset](const float* from, int size, Pack& fraction, std::int32_t* to) {
       const Pack extent(static_cast<float>(size));
       Pack x = xsimd::fma(Pack::load_unaligned(from), extent, Pack(-offset));
-      x = xsimd::select(x >= Pack(-1.0f), x, Pack(-1.0f));
+      x = xsimd::select(x >= Pack(-2 * offset), x, Pack(-2 * offset));
       x = xsimd::min(x, extent - Pack(1.0f / 256));
       const Pack whole = xsimd::floor(x);
       fraction = x - whole;

@@ -18,11 +18,24 @@ namespace {
   refuse("there is no level " + std::to_string(level) + ": there are 0 to " + std::to_string(levels - 1));
 }
 
-void check_room(std::size_t room, std::size_t directions, int channels) {
-  const auto each = static_cast<std::size_t>(channels);
-  if (directions == 1 ? room < each : room / each < directions) {
-    refuse("there is room for " + std::to_string(room) + " values of " + std::to_string(channels) +
-           " channels along " + std::to_string(directions) + " directions");
+[[noreturn]] void refuse_room(std::size_t room, std::size_t directions, int channels) {
+  refuse("there is room for " + std::to_string(room) + " values of " + std::to_string(channels) +
+         " channels along " + std::to_string(directions) + " directions");
+}
+
+void check_room(std::size_t room, const Sampler::State& state) {
+  if (room < static_cast<std::size_t>(state.channels())) refuse_room(room, 1, state.channels());
+}
+
+void check_room(std::size_t room, std::size_t directions, const Sampler::State& state) {
+  if (room / static_cast<std::size_t>(state.channels()) < directions) {
+    refuse_room(room, directions, state.channels());
+  }
+}
+
+void check_rgb(const Sampler::State& state) {
+  if (state.channels() < 3) {
+    refuse("a map of " + std::to_string(state.channels()) + " channels has no R, G and B");
   }
 }
 
@@ -40,11 +53,6 @@ void check_levels(std::span<const float> levels, std::size_t directions, int cou
       count);
 }
 
-StridedDirections strided(const Vec3<float>* first) {
-  return {&first->x, &first->y, &first->z, 3};
-}
-static_assert(sizeof(Vec3<float>) == 3 * sizeof(float));
-
 std::size_t checked_count(const DirectionArrays& directions) {
   const std::size_t count = directions.x.size();
   if (directions.y.size() != count || directions.z.size() != count) refuse("x, y and z differ in length");
@@ -52,7 +60,9 @@ std::size_t checked_count(const DirectionArrays& directions) {
 }
 
 StridedDirections part_of(std::span<const Vec3<float>> directions, std::size_t from) {
-  return strided(directions.data() + from);
+  static_assert(sizeof(Vec3<float>) == 3 * sizeof(float));
+  const Vec3<float>* first = directions.data() + from;
+  return {&first->x, &first->y, &first->z, 3};
 }
 const Vec3d* part_of(std::span<const Vec3d> directions, std::size_t from) {
   return directions.data() + from;
@@ -65,7 +75,7 @@ StridedDirections part_of(const DirectionArrays& directions, std::size_t from) {
 template <class Directions>
 void look_up_tiles(const Sampler::State& state, const Directions& directions, std::size_t count,
                    std::span<float> radiance, double level) {
-  check_room(radiance.size(), count, state.channels());
+  check_room(radiance.size(), count, state);
   const LevelBlend blend = state.blend_at(level);
   const std::size_t channels = static_cast<std::size_t>(state.channels());
   const std::size_t values = count * channels;
@@ -80,7 +90,7 @@ void look_up_tiles(const Sampler::State& state, const Directions& directions, st
 template <class Directions>
 void look_up_tiles(const Sampler::State& state, const Directions& directions, std::size_t count,
                    std::span<float> radiance, std::span<const float> levels) {
-  check_room(radiance.size(), count, state.channels());
+  check_room(radiance.size(), count, state);
   check_levels(levels, count, state.levels());
   const std::size_t channels = static_cast<std::size_t>(state.channels());
   for (std::size_t from = 0; from < count; from += state.tile_size()) {
@@ -128,6 +138,7 @@ void Sampler::State::add(const sphere::AnyParameterization& parameterization, co
   const bool same = !levels_.empty() && parameterization == levels_.back().parameterization;
   levels_.push_back(
       {view_of(level), parameterization, &parameterization.kernels(), parameterization.self(), same});
+  last_level_ = levels() - 1;
 }
 
 void Sampler::State::add_pyramid(const Map& map, int levels) {
@@ -135,11 +146,8 @@ void Sampler::State::add_pyramid(const Map& map, int levels) {
   for (const Level& level : pyramid_) add(map.parameterization, level);
 }
 
-LevelBlend Sampler::State::blend_at(double level) const {
-  const int last = levels() - 1;
-  if (!(level >= 0 && level <= last)) refuse_level(level, levels());
-  const int finer = static_cast<int>(level);
-  return {finer, static_cast<float>(level - finer)};
+void Sampler::State::refuse_level(double level) const {
+  welkin::refuse_level(level, levels());
 }
 
 Sampler::Sampler(Map map, const SamplerOptions& options)
@@ -167,28 +175,26 @@ int Sampler::levels() const {
 }
 
 void Sampler::look_up(const Vec3<float>& direction, std::span<float> radiance, double level) const {
-  check_room(radiance.size(), 1, state_->channels());
-  const auto room = static_cast<std::size_t>(state_->channels());
-  state_->look_up_one(strided(&direction), state_->blend_at(level), radiance.data(), room);
+  check_room(radiance.size(), *state_);
+  state_->look_up_one(direction, state_->blend_at(level), radiance.data());
 }
 
 void Sampler::look_up(const Vec3d& direction, std::span<float> radiance, double level) const {
-  check_room(radiance.size(), 1, state_->channels());
-  const auto room = static_cast<std::size_t>(state_->channels());
-  state_->look_up_one(direction, state_->blend_at(level), radiance.data(), room);
+  check_room(radiance.size(), *state_);
+  state_->look_up_one(direction, state_->blend_at(level), radiance.data());
 }
 
 std::array<float, 3> Sampler::rgb(const Vec3<float>& direction, double level) const {
-  if (channels() < 3) refuse("a map of " + std::to_string(channels()) + " channels has no R, G and B");
-  float radiance[kMostChannels + 8];
-  state_->look_up_one(strided(&direction), state_->blend_at(level), radiance, std::size(radiance));
+  check_rgb(*state_);
+  float radiance[kMostChannels];
+  state_->look_up_one(direction, state_->blend_at(level), radiance);
   return {radiance[0], radiance[1], radiance[2]};
 }
 
 std::array<float, 3> Sampler::rgb(const Vec3d& direction, double level) const {
-  if (channels() < 3) refuse("a map of " + std::to_string(channels()) + " channels has no R, G and B");
-  float radiance[kMostChannels + 8];
-  state_->look_up_one(direction, state_->blend_at(level), radiance, std::size(radiance));
+  check_rgb(*state_);
+  float radiance[kMostChannels];
+  state_->look_up_one(direction, state_->blend_at(level), radiance);
   return {radiance[0], radiance[1], radiance[2]};
 }
 
@@ -221,7 +227,7 @@ void Sampler::look_up(const DirectionArrays& directions, std::span<float> radian
 }
 
 bool Sampler::covers(const Vec3<float>& direction) const {
-  return state_->covers(strided(&direction));
+  return state_->covers(direction);
 }
 
 bool Sampler::covers(const Vec3d& direction) const {

@@ -60,6 +60,7 @@ class Sampler {
 
   /// Looks the caller's map up, which must outlive the sampler and all its copies, and not change meanwhile.
   static Sampler borrow(const Map& map, const SamplerOptions& options = {});
+  static Sampler borrow(const Map&& map, const SamplerOptions& options = {}) = delete;
 
   int channels() const;
   int levels() const;

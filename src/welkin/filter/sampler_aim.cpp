@@ -10,11 +10,11 @@ FloatOrientation::FloatOrientation(const Matrix3& matrix) : identity(matrix == M
   }
 }
 
-Aim aim_kernel() {
+AimKernels aim_kernels() {
 #ifdef WELKIN_HAS_AVX2
-  if (instruction_set() == InstructionSet::avx2) return aim_avx2();
+  if (instruction_set() == InstructionSet::avx2) return aim_kernels_avx2();
 #endif
-  return aim_baseline();
+  return aim_kernels_baseline();
 }
 
 }  // namespace welkin

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "welkin/math/rotation.h"
+#include "welkin/sphere/kernels.h"
 
 /// The first step of a look-up: from the caller's directions to those of the parameterization, in float. One
 /// source file per instruction set.
@@ -29,7 +30,7 @@ struct AimedDirections {
 };
 
 /// Scales each direction by a power of two, so that its longest component is between 1 and 2 and no formula
-/// overflows or loses digits (by less for components of 2^126 or more and 2^−126 or less), and turns it.
+/// overflows or loses digits (for the largest and for subnormal numbers: between 2^−22 and 4), and turns it.
 /// Values of `to` up to the next whole pack are written. Returns whether all are usable.
 ///
 /// A direction gives the same bits alone, among others and in any pack. Turning adds an error of at most
@@ -37,12 +38,21 @@ struct AimedDirections {
 using Aim = bool (*)(const FloatOrientation& orientation, const StridedDirections& from,
                      const AimedDirections& to, std::size_t count);
 
-Aim aim_baseline();
+/// The same for one direction (x, y, z), where every instruction counts: `to` is aligned to 64 bytes and gets
+/// x at 0, y at kLanes and z at 2·kLanes, each for a whole pack. Returns whether it is usable.
+using AimOne = bool (*)(const FloatOrientation& orientation, const float* direction, float* to);
+
+struct AimKernels {
+  Aim many;
+  AimOne one;
+};
+
+AimKernels aim_kernels_baseline();
 #ifdef WELKIN_HAS_AVX2
-Aim aim_avx2();
+AimKernels aim_kernels_avx2();
 #endif
 
 /// For the best instruction set of this processor.
-Aim aim_kernel();
+AimKernels aim_kernels();
 
 }  // namespace welkin

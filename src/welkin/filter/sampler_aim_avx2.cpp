@@ -3,8 +3,8 @@
 
 namespace welkin {
 
-Aim aim_avx2() {
-  return &AimOf<xsimd::fma3<xsimd::avx2>>::run;
+AimKernels aim_kernels_avx2() {
+  return AimOf<xsimd::fma3<xsimd::avx2>>::kernels();
 }
 
 }  // namespace welkin

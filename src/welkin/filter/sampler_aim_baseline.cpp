@@ -2,8 +2,8 @@
 
 namespace welkin {
 
-Aim aim_baseline() {
-  return &AimOf<xsimd::default_arch>::run;
+AimKernels aim_kernels_baseline() {
+  return AimOf<xsimd::default_arch>::kernels();
 }
 
 }  // namespace welkin

@@ -32,27 +32,32 @@ class Sampler::State {
   int channels() const { return channels_; }
   int levels() const { return static_cast<int>(levels_.size()); }
   /// Throws Error when there is no such level.
-  LevelBlend blend_at(double level) const;
+  LevelBlend blend_at(double level) const {
+    if (!(level >= 0 && level <= last_level_)) refuse_level(level);
+    const int finer = static_cast<int>(level);
+    return {finer, static_cast<float>(level - finer)};
+  }
 
   /// radiance[i·channels…] of i < count, which is at most tile_size(). `room`: values that may be written.
   void look_up(const StridedDirections& directions, std::size_t count, const LevelBlend& level,
                float* radiance, std::size_t room) const;
   void look_up(const Vec3d* directions, std::size_t count, const LevelBlend& level, float* radiance,
                std::size_t room) const;
-  void look_up_one(const StridedDirections& direction, const LevelBlend& level, float* radiance,
-                   std::size_t room) const;
-  void look_up_one(const Vec3d& direction, const LevelBlend& level, float* radiance, std::size_t room) const;
+  void look_up_one(const Vec3<float>& direction, const LevelBlend& level, float* radiance) const;
+  void look_up_one(const Vec3d& direction, const LevelBlend& level, float* radiance) const;
   /// Each at a level of its own, all of which are valid.
   void look_up(const StridedDirections& directions, std::size_t count, const float* levels,
                float* radiance) const;
   void look_up(const Vec3d* directions, std::size_t count, const float* levels, float* radiance) const;
 
-  bool covers(const StridedDirections& direction) const;
+  bool covers(const Vec3<float>& direction) const;
   bool covers(const Vec3d& direction) const;
 
   std::size_t tile_size() const { return tile_size_; }
 
  private:
+  [[noreturn]] void refuse_level(double level) const;
+
   struct SampledLevel {
     LevelView view;
     sphere::AnyParameterization parameterization;
@@ -77,8 +82,9 @@ class Sampler::State {
 
   std::vector<SampledLevel> levels_;
   Fetch fetch_;
-  Aim aim_;
+  AimKernels aim_;
   int channels_;
+  double last_level_ = -1;
   bool whole_world_;
   std::size_t tile_size_;
   FloatOrientation float_orientation_;

@@ -10,14 +10,21 @@ namespace {
 constexpr std::size_t kTileValues = 1024;
 using Values = float[kTileValues + 8];
 
-/// Copies the values of one or a few texels: calling memcpy takes longer.
+/// Copies values, those of one texel without a call of memcpy, which takes longer.
 void copy_values(const float* from, std::size_t count, float* to) {
-  if (count == 3) {
-    to[0] = from[0];
-    to[1] = from[1];
-    to[2] = from[2];
-  } else {
-    std::copy_n(from, count, to);
+  switch (count) {
+    case 4:
+      to[3] = from[3];
+      [[fallthrough]];
+    case 3:
+      to[2] = from[2];
+      to[1] = from[1];
+      [[fallthrough]];
+    case 1:
+      to[0] = from[0];
+      break;
+    default:
+      std::copy_n(from, count, to);
   }
 }
 
@@ -28,8 +35,8 @@ void blend(float weight, const float* coarser, std::size_t count, float* finer) 
 }  // namespace
 
 /// Up to kSize directions, and where they are in a level. Values past the last are not set. For one direction
-/// a small one is several nanoseconds faster: in a large one, arrays lie 4096 bytes apart, which processors
-/// take for the same address at first.
+/// a small one is faster: in a large one, arrays lie 4096 bytes apart, which processors take for the same
+/// address at first.
 template <std::size_t kSize>
 struct Sampler::State::Tile {
   alignas(64) float x[kSize], y[kSize], z[kSize];
@@ -39,7 +46,7 @@ struct Sampler::State::Tile {
 
 Sampler::State::State(std::shared_ptr<const void> owner, const Map& map, const SamplerOptions& options)
     : fetch_(fetch_for(options.filter, options.allow_ringing, map.channels())),
-      aim_(aim_kernel()),
+      aim_(aim_kernels()),
       channels_(map.channels()),
       whole_world_(map.parameterization.whole_world()),
       tile_size_(std::min(kSamplerTile, kTileValues / static_cast<std::size_t>(map.channels()) /
@@ -55,7 +62,7 @@ template <std::size_t kSize>
 inline bool Sampler::State::locate(int level, const StridedDirections& directions, std::size_t count,
                                    Tile<kSize>& tile) const {
   const SampledLevel& in = levels_[static_cast<std::size_t>(level)];
-  bool all = aim_(float_orientation_, directions, {tile.x, tile.y, tile.z, tile.shown}, count);
+  bool all = aim_.many(float_orientation_, directions, {tile.x, tile.y, tile.z, tile.shown}, count);
   in.kernels->from_sphere(in.self, tile.x, tile.y, tile.z, tile.chart, tile.u, tile.v, count);
   if (!whole_world_) {
     alignas(64) float covered[kSize];
@@ -136,14 +143,35 @@ void Sampler::State::look_up(const Vec3d* directions, std::size_t count, const L
   look_up_tile<kSamplerTile>(directions, count, level, radiance, room);
 }
 
-void Sampler::State::look_up_one(const StridedDirections& direction, const LevelBlend& level, float* radiance,
-                                 std::size_t room) const {
-  look_up_tile<sphere::kLanes>(direction, 1, level, radiance, room);
+/// As look_up_tile for one direction at one level, with the same results, in two thirds of the instructions.
+void Sampler::State::look_up_one(const Vec3<float>& direction, const LevelBlend& level,
+                                 float* radiance) const {
+  const auto channels = static_cast<std::size_t>(channels_);
+  if (level.weight > 0) {
+    const StridedDirections one{&direction.x, &direction.y, &direction.z, 3};
+    return look_up_tile<sphere::kLanes>(one, 1, level, radiance, channels);
+  }
+  constexpr std::size_t kLanes = sphere::kLanes;
+  alignas(64) float at[6 * kLanes];
+  float values[kMostChannels + 8];
+  float *x = at, *y = x + kLanes, *z = y + kLanes, *chart = z + kLanes, *u = chart + kLanes, *v = u + kLanes;
+  const SampledLevel& in = levels_[static_cast<std::size_t>(level.finer)];
+  bool shown = aim_.one(float_orientation_, &direction.x, at);
+  in.kernels->from_sphere(in.self, x, y, z, chart, u, v, 1);
+  fetch_(in.view, chart, u, v, values, 1);
+  if (!whole_world_) {
+    in.kernels->covers(in.self, x, y, z, chart, 1);
+    shown &= chart[0] > 0;
+  }
+  if (shown) {
+    copy_values(values, channels, radiance);
+  } else {
+    std::fill_n(radiance, channels, 0.0f);
+  }
 }
 
-void Sampler::State::look_up_one(const Vec3d& direction, const LevelBlend& level, float* radiance,
-                                 std::size_t room) const {
-  look_up_tile<sphere::kLanes>(&direction, 1, level, radiance, room);
+void Sampler::State::look_up_one(const Vec3d& direction, const LevelBlend& level, float* radiance) const {
+  look_up_tile<sphere::kLanes>(&direction, 1, level, radiance, static_cast<std::size_t>(channels_));
 }
 
 /// Those of a tile's directions that lie at one level, or between it and the next.
@@ -223,9 +251,9 @@ void Sampler::State::look_up(const Vec3d* directions, std::size_t count, const f
   look_up_levels(directions, count, levels, radiance);
 }
 
-bool Sampler::State::covers(const StridedDirections& direction) const {
+bool Sampler::State::covers(const Vec3<float>& direction) const {
   Tile<sphere::kLanes> tile;
-  return locate(0, direction, 1, tile);
+  return locate(0, StridedDirections{&direction.x, &direction.y, &direction.z, 3}, 1, tile);
 }
 
 bool Sampler::State::covers(const Vec3d& direction) const {
