@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "welkin/base/error.h"
 #include "welkin/filter/sampler_job.h"
 #include "welkin/map/pyramid.h"
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "welkin/base/error.h"
 #include "welkin/filter/filter.h"
 #include "welkin/map/chain.h"
 
