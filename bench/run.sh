@@ -2,7 +2,8 @@
 # Runs the benchmarks and prints their tables as Markdown; all of them together become docs/benchmarks.md.
 #
 # run.sh BUILD_FOLDER [WHAT…]
-#   WHAT               resample_speed filter_quality round_trip every_parameterization read_speed commands cold_convert peers
+#   WHAT               resample_speed look_up filter_quality round_trip every_parameterization read_speed commands cold_convert
+#                      peers
 #                      prefilter_speed prefilter_quality prefilter_narrow bake bake_peers;
 #                      some of these are only printed
 #
@@ -13,7 +14,8 @@
 #   WELKIN_BENCH_IBL_SAMPLER=FILE   the command of Khronos' glTF-IBL-Sampler
 set -euo pipefail
 
-everything=(resample_speed filter_quality round_trip every_parameterization read_speed commands cold_convert peers
+everything=(resample_speed look_up filter_quality round_trip every_parameterization read_speed commands cold_convert
+  peers
   prefilter_speed prefilter_quality prefilter_narrow bake bake_peers)
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 build=$(cd -- "${1:?run.sh BUILD_FOLDER [WHAT…]}" && pwd)

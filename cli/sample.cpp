@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <optional>
 #include <sstream>
 
 #include "command.h"
-#include "welkin/filter/sample.h"
+#include "welkin/filter/sampler.h"
 #include "welkin/map/pyramid.h"
 
 namespace welkin::cli {
@@ -29,58 +28,39 @@ Vec3d checked(const std::string& where, double x, double y, double z) {
   return {x / longest, y / longest, z / longest};
 }
 
-/// What is looked up: a map at a level, or between two.
-struct Levels {
-  Map finer;
-  std::optional<Map> coarser;  ///< where it has a weight
-  double weight = 0;
+/// What is looked up, and at which of its levels.
+struct Source {
+  Sampler sampler;
+  double level;
 };
 
 void check_level(const std::string& path, double level, int last) {
   if (level > last) throw UsageError(fmt::format("--level: {} has levels 0 to {}", path, last));
 }
 
-Levels levels_of_file(MapReader& reader, const std::string& path, double level) {
+/// Of a file's levels only those are read that are looked up: one, or the two that the level lies between.
+Source levels_of_file(MapReader& reader, const std::string& path, double level,
+                      const SamplerOptions& options) {
   check_level(path, level, levels_of(reader.info()) - 1);
   const int finer = static_cast<int>(level);
-  reader.set_level(finer);
-  Levels levels{reader.read(), std::nullopt, level - finer};
-  if (levels.weight > 0) {
-    reader.set_level(finer + 1);
-    levels.coarser = reader.read();
+  Chain chain;
+  for (int k = finer; k <= (level > finer ? finer + 1 : finer); ++k) {
+    reader.set_level(k);
+    chain.levels.push_back(reader.read());
   }
-  return levels;
+  return {Sampler(std::move(chain), options), level - finer};
 }
 
-Levels levels_of_pyramid(Map map, const std::string& path, double level) {
+Source levels_of_pyramid(Map map, const std::string& path, double level, SamplerOptions options) {
   check_level(path, level, levels_below(map.width(), map.height()));
-  const int finer = static_cast<int>(level);
-  const double weight = level - finer;
-  std::vector<Level> pyramid = make_pyramid(map, weight > 0 ? finer + 1 : finer);
-  std::optional<Map> coarser;
-  if (weight > 0) {
-    coarser.emplace(map.parameterization, 1, 1, map.channels());
-    coarser->parameterization = map.parameterization;
-    coarser->orientation = map.orientation;
-    coarser->level = std::move(pyramid.back());
-    pyramid.pop_back();
-  }
-  if (finer > 0) map.level = std::move(pyramid.back());
-  return {std::move(map), std::move(coarser), weight};
+  options.levels = static_cast<int>(std::ceil(level)) + 1;
+  return {Sampler(std::move(map), options), level};
 }
 
-void print_values(const Levels& levels, const std::vector<Vec3d>& directions, Filter filter) {
-  const auto channels = static_cast<std::size_t>(levels.finer.channels());
+void print_values(const Source& source, const std::vector<Vec3d>& directions) {
+  const auto channels = static_cast<std::size_t>(source.sampler.channels());
   std::vector<float> values(directions.size() * channels);
-  sample(levels.finer, levels.finer.level, directions, filter, values);
-  if (levels.coarser) {
-    std::vector<float> coarser(values.size());
-    sample(*levels.coarser, levels.coarser->level, directions, filter, coarser);
-    const auto weight = static_cast<float>(levels.weight);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = (1 - weight) * values[i] + weight * coarser[i];
-    }
-  }
+  source.sampler.look_up(directions, values, source.level);
   for (std::size_t i = 0; i < values.size(); ++i) {
     fmt::print("{:.9g}{}", values[i], (i + 1) % channels == 0 ? "\n" : " ");
   }
@@ -88,7 +68,8 @@ void print_values(const Levels& levels, const std::vector<Vec3d>& directions, Fi
 
 void Sample::run() const {
   read.parse();
-  const Filter how = parse_option("--filter", [&] { return filter_from_name(filter); });
+  SamplerOptions options;
+  options.filter = parse_option("--filter", [&] { return filter_from_name(filter); });
   std::vector<Vec3d> given;
   for (const std::string& text : directions) {
     const std::vector<double> n = parse_numbers("--dir", text);
@@ -96,9 +77,9 @@ void Sample::run() const {
     given.push_back(checked("--dir: '" + text + "'", n[0], n[1], n[2]));
   }
   MapReader reader = read.open(map);
-  const Levels levels = levels_of(reader.info()) > 1 ? levels_of_file(reader, map, level)
-                                                     : levels_of_pyramid(reader.read(), map, level);
-  if (!directions.empty()) return print_values(levels, given, how);
+  const Source source = levels_of(reader.info()) > 1 ? levels_of_file(reader, map, level, options)
+                                                     : levels_of_pyramid(reader.read(), map, level, options);
+  if (!directions.empty()) return print_values(source, given);
 
   std::string line;
   for (int number = 1; std::getline(std::cin, line); ++number) {
@@ -108,7 +89,7 @@ void Sample::run() const {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string where = fmt::format("standard input, line {}: '{}'", number, printable(line));
     if (!(words >> x >> y >> z) || words >> rest) throw UsageError(where + " is not x y z");
-    print_values(levels, {checked(where, x, y, z)}, how);
+    print_values(source, {checked(where, x, y, z)});
   }
 }
 

@@ -1,5 +1,5 @@
 // Prints the radiance that comes from a direction, one value per channel: sample_direction MAP X Y Z
-#include <welkin/filter/sample.h>
+#include <welkin/filter/sampler.h>
 #include <welkin/map_file/map_file.h>
 
 #include <cstdio>
@@ -7,11 +7,11 @@
 
 int main(int argc, char** argv) try {
   if (argc != 5) throw welkin::Error("usage: sample_direction MAP X Y Z");
-  const welkin::Map map = welkin::read_map(argv[1]).map;
+  const welkin::Sampler sampler(welkin::read_map(argv[1]).map, {.filter = welkin::Filter::bicubic});
   const welkin::Vec3d direction{std::atof(argv[2]), std::atof(argv[3]), std::atof(argv[4])};
   if (!(welkin::dot(direction, direction) > 0)) throw welkin::Error("X Y Z is not a direction");
-  std::vector<float> radiance(static_cast<std::size_t>(map.channels()));
-  welkin::sample(map, map.level, {&direction, 1}, welkin::Filter::bicubic, radiance);
+  std::vector<float> radiance(static_cast<std::size_t>(sampler.channels()));
+  sampler.look_up(direction, radiance);
   for (const float value : radiance) std::printf("%.9g\n", static_cast<double>(value));
 } catch (const std::exception& error) {
   std::fprintf(stderr, "sample_direction: %s\n", error.what());

@@ -7,14 +7,14 @@
 namespace welkin {
 
 /// A parallelogram of a level over which texels are averaged: all of a target texel's area, seen in the
-/// source. Positions in texels of the level, centres at +½. A place (x, y) has coordinates a =
+/// source. Positions in texels of the level, centres at +½. A position (x, y) has coordinates a =
 /// across·(x−centre), b = down·(x−centre), each −½…½ inside the parallelogram.
 struct Parallelogram {
   int chart;
   float x, y;         ///< centre
   float across[2];    ///< gradient of a
   float down[2];      ///< gradient of b
-  float gradient[2];  ///< the weight of a place is 1 + gradient[0]·a + gradient[1]·b
+  float gradient[2];  ///< the weight of a position is 1 + gradient[0]·a + gradient[1]·b
 };
 
 /// out[i·channels…] = the weighted mean over parallelogram i of the level's bilinear interpolation: every

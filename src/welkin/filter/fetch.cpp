@@ -19,7 +19,9 @@ FetchKernels fetch_kernels(int channels) {
 
 Fetch fetch_for(Filter filter, bool allow_ringing, int channels) {
   const FetchKernels kernels = fetch_kernels(channels);
-  const auto choose = [&](const RingingFetch& kernel) { return allow_ringing ? kernel.plain : kernel.held; };
+  const auto choose = [&](const RingingFetch& kernel) {
+    return allow_ringing ? kernel.unclamped : kernel.clamped;
+  };
   switch (filter) {
     case Filter::nearest:
       return kernels.nearest;

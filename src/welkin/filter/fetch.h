@@ -5,7 +5,7 @@
 #include "welkin/filter/filter.h"
 #include "welkin/map/map.h"
 
-/// Reading texels of a level at places (chart, u, v), many at a time. One source file per instruction set.
+/// Reading texels of a level at positions (chart, u, v), many at a time. One source file per instruction set.
 namespace welkin {
 
 /// What a fetch kernel needs of a level.
@@ -21,23 +21,23 @@ struct LevelView {
 
 LevelView view_of(const Level& level);
 
-/// out[i·channels…] = the filtered texels at (chart[i], u[i], v[i]), i < count. Arrays follow sphere::kLanes:
-/// values up to padded(count) are read, and `out` has room for padded(count)·channels + 8 values. Places are
-/// clamped to within half a texel outside the chart, so a bad one (NaN too) reads some texel of the map and
-/// no other memory.
+/// out[i·channels…] = the filtered texels at (chart[i], u[i], v[i]), i < count. Values of the arrays up to
+/// padded(count) are read (sphere::kLanes) and need not mean anything. `out` has room for count·channels + 8
+/// values; what comes after the first count·channels is overwritten. Positions are clamped to within half a
+/// texel outside the chart, so a bad one (NaN too) reads some texel of the map and no other memory.
 using Fetch = void (*)(const LevelView& level, const float* chart, const float* u, const float* v, float* out,
                        std::size_t count);
 
-/// A kernel with negative weights, plain and held: a held result lies at most half the range of the inner 4×4
-/// texels beyond that range, and never below half the lowest of them, so positive radiance stays positive
-/// beside a bright light.
+/// A kernel with negative weights. Unclamped, it overshoots beside a bright light. Clamped, a result lies at
+/// most half the range of the inner 4×4 texels beyond that range, and never below half the lowest of them, so
+/// positive radiance stays positive.
 struct RingingFetch {
-  Fetch plain;
-  Fetch held;
+  Fetch unclamped;
+  Fetch clamped;
 };
 
 struct FetchKernels {
-  Fetch nearest;
+  Fetch nearest;          ///< of the chart, never of its border
   Fetch bilinear;         ///< tent over 2×2 texels
   Fetch b_spline;         ///< cubic B-spline, 4×4 texels that hold its coefficients, not values
   RingingFetch bicubic;   ///< Keys 1981, a = −½ (Catmull–Rom), 4×4 texels

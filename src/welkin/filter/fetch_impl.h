@@ -8,7 +8,7 @@
 #include "welkin/sphere/kernels.h"
 
 /// Included by one source file per instruction set; everything carries its architecture in its template
-/// arguments, for the reason given in sphere/kernels_impl.h. `Wide` computes places and weights, a pack of
+/// arguments, for the reason given in sphere/kernels_impl.h. `Wide` computes positions and weights, a pack of
 /// samples at a time; `Four` holds four neighbouring values of one texel row, so one load brings all channels
 /// of a texel.
 namespace welkin {
@@ -24,9 +24,9 @@ using BaselineFour = xsimd::default_arch;
 template <class Wide>
 inline constexpr std::size_t kPackSize = xsimd::batch<float, Wide>::size;
 
-/// Texel (x, y) and the fractions to its right and downward neighbour, for a pack of places.
+/// Texel (x, y) and the fractions to its right and downward neighbour, for a pack of positions.
 template <class Wide>
-struct Places {
+struct Positions {
   static constexpr std::size_t kSize = kPackSize<Wide>;
   using Pack = xsimd::batch<float, Wide>;
   using Ints = xsimd::batch<std::int32_t, Wide>;
@@ -36,19 +36,19 @@ struct Places {
   alignas(64) std::int32_t y[kSize];
   Pack fx, fy;
 
-  Places(const LevelView& level, const float* charts, const float* us, const float* vs, float offset) {
-    // NaN becomes the lowest place, so every one stays inside the border.
-    const auto place = [offset](const float* from, int size, Pack& fraction, std::int32_t* to) {
+  Positions(const LevelView& level, const float* charts, const float* us, const float* vs, float offset) {
+    // NaN becomes the lowest position, so every one stays inside the border; without an offset, in the chart.
+    const auto locate = [offset](const float* from, int size, Pack& fraction, std::int32_t* to) {
       const Pack extent(static_cast<float>(size));
       Pack x = xsimd::fma(Pack::load_unaligned(from), extent, Pack(-offset));
-      x = xsimd::select(x >= Pack(-1.0f), x, Pack(-1.0f));
+      x = xsimd::select(x >= Pack(-2 * offset), x, Pack(-2 * offset));
       x = xsimd::min(x, extent - Pack(1.0f / 256));
       const Pack whole = xsimd::floor(x);
       fraction = x - whole;
       xsimd::to_int(whole).store_unaligned(to);
     };
-    place(us, level.width, fx, x);
-    place(vs, level.height, fy, y);
+    locate(us, level.width, fx, x);
+    locate(vs, level.height, fy, y);
     const Pack c = Pack::load_unaligned(charts);
     const Pack last(static_cast<float>(level.charts - 1));
     xsimd::to_int(xsimd::min(xsimd::select(c >= Pack(0.0f), c, Pack(0.0f)), last)).store_unaligned(chart);
@@ -71,13 +71,18 @@ struct FetchOf {
 
   static int channels(const LevelView& level) { return C > 0 ? C : level.channels; }
 
+  /// Samples of the pack that begins at `start`.
+  static std::size_t in_pack(std::size_t start, std::size_t count) {
+    return count - start < kSize ? count - start : kSize;
+  }
+
   static void nearest(const LevelView& level, const float* chart, const float* u, const float* v, float* out,
                       std::size_t count) {
     const int n = channels(level);
     for (std::size_t start = 0; start < count; start += kSize) {
-      const Places<Wide> places(level, chart + start, u + start, v + start, 0.0f);
-      for (std::size_t i = 0; i < kSize; ++i) {
-        const float* texel = places.template texel<C>(level, i);
+      const Positions<Wide> positions(level, chart + start, u + start, v + start, 0.0f);
+      for (std::size_t i = 0, here = in_pack(start, count); i < here; ++i) {
+        const float* texel = positions.template texel<C>(level, i);
         float* to = out + (start + i) * static_cast<std::size_t>(n);
         for (int c = 0; c < n; c += 4) Value::load_unaligned(texel + c).store_unaligned(to + c);
       }
@@ -89,11 +94,11 @@ struct FetchOf {
     const int n = channels(level);
     alignas(64) float fx[kSize], fy[kSize];
     for (std::size_t start = 0; start < count; start += kSize) {
-      const Places<Wide> places(level, chart + start, u + start, v + start, 0.5f);
-      places.fx.store_aligned(fx);
-      places.fy.store_aligned(fy);
-      for (std::size_t i = 0; i < kSize; ++i) {
-        const float* texel = places.template texel<C>(level, i);
+      const Positions<Wide> positions(level, chart + start, u + start, v + start, 0.5f);
+      positions.fx.store_aligned(fx);
+      positions.fy.store_aligned(fy);
+      for (std::size_t i = 0, here = in_pack(start, count); i < here; ++i) {
+        const float* texel = positions.template texel<C>(level, i);
         float* to = out + (start + i) * static_cast<std::size_t>(n);
         const Value right(fx[i]), down(fy[i]);
         for (int c = 0; c < n; c += 4) {
@@ -138,9 +143,9 @@ struct FetchOf {
     }
   };
 
-  /// sinc(t)·sinc(t/A) for the 2A texels around a place, divided by their sum (C. Duchon, "Lanczos filtering
-  /// in one and two dimensions", 1979). sin(π(f−k)) = ±sin πf, and sin(π(f−k)/A) follows by the addition
-  /// theorem.
+  /// sinc(t)·sinc(t/A) for the 2A texels around a position, divided by their sum (C. Duchon, "Lanczos
+  /// filtering in one and two dimensions", 1979). sin(π(f−k)) = ±sin πf, and sin(π(f−k)/A) follows by the
+  /// addition theorem.
   template <int A>
   struct Lanczos {
     static_assert(A == 3 || A == 4);
@@ -169,18 +174,19 @@ struct FetchOf {
     }
   };
 
-  /// Holds an interpolated value near the range [lowest, highest] of the texels around it: half a range
+  /// Limits an interpolated value to near the range [lowest, highest] of the texels around it: half a range
   /// beyond on either side, and never below half the lowest, so positive radiance stays positive.
-  static Value hold(const Value& value, const Value& lowest, const Value& highest) {
+  static Value limit_overshoot(const Value& value, const Value& lowest, const Value& highest) {
     const Value half(0.5f);
     const Value margin = half * (highest - lowest);
     const Value floor = xsimd::max(lowest - margin, xsimd::min(lowest, half * lowest));
-    const Value held = xsimd::min(xsimd::max(value, floor), highest + margin);
-    return xsimd::select(value == value, held, value);  // NaN stays NaN
+    const Value limited = xsimd::min(xsimd::max(value, floor), highest + margin);
+    return xsimd::select(value == value, limited, value);  // NaN stays NaN
   }
 
-  /// Separable kernel over kTaps × kTaps texels; with `kHold`, held near the range of the inner 4×4 texels.
-  template <class Kernel, bool kHold>
+  /// Separable kernel over kTaps × kTaps texels; with `kClamped`, limited to near the range of the inner 4×4
+  /// texels.
+  template <class Kernel, bool kClamped>
   static void separable(const LevelView& level, const float* chart, const float* u, const float* v,
                         float* out, std::size_t count) {
     constexpr int kTaps = Kernel::kTaps, kBefore = Kernel::kBefore;
@@ -188,14 +194,14 @@ struct FetchOf {
     const int n = channels(level);
     alignas(64) float wx[kTaps][kSize], wy[kTaps][kSize];
     for (std::size_t start = 0; start < count; start += kSize) {
-      const Places<Wide> places(level, chart + start, u + start, v + start, 0.5f);
+      const Positions<Wide> positions(level, chart + start, u + start, v + start, 0.5f);
       Pack w[kTaps];
-      Kernel::weights(places.fx, w);
+      Kernel::weights(positions.fx, w);
       for (int tap = 0; tap < kTaps; ++tap) w[tap].store_aligned(wx[tap]);
-      Kernel::weights(places.fy, w);
+      Kernel::weights(positions.fy, w);
       for (int tap = 0; tap < kTaps; ++tap) w[tap].store_aligned(wy[tap]);
-      for (std::size_t i = 0; i < kSize; ++i) {
-        const float* texel = places.template texel<C>(level, i) - kBefore * level.row_stride - kBefore * n;
+      for (std::size_t i = 0, here = in_pack(start, count); i < here; ++i) {
+        const float* texel = positions.template texel<C>(level, i) - kBefore * level.row_stride - kBefore * n;
         float* to = out + (start + i) * static_cast<std::size_t>(n);
         for (int c = 0; c < n; c += 4) {
           Value sum(0.0f), lowest(3.4e38f), highest(-3.4e38f);
@@ -205,14 +211,14 @@ struct FetchOf {
             for (int column = 0; column < kTaps; ++column) {
               const Value value = Value::load_unaligned(from + column * n);
               line = xsimd::fma(Value(wx[column][i]), value, line);
-              if (kHold && row >= kInner && row < kInner + 4 && column >= kInner && column < kInner + 4) {
+              if (kClamped && row >= kInner && row < kInner + 4 && column >= kInner && column < kInner + 4) {
                 lowest = xsimd::min(lowest, value);
                 highest = xsimd::max(highest, value);
               }
             }
             sum = xsimd::fma(Value(wy[row][i]), line, sum);
           }
-          if (kHold) sum = hold(sum, lowest, highest);
+          if (kClamped) sum = limit_overshoot(sum, lowest, highest);
           sum.store_unaligned(to + c);
         }
       }

@@ -12,35 +12,37 @@ using namespace cases;
 
 constexpr std::size_t kCount = 512;
 
-struct Places {
+struct Positions {
   alignas(64) std::array<float, kCount> chart, u, v;
 };
 
 /// All over the charts and up to half a texel outside.
-Places random_places(const Map& map) {
+Positions random_positions(const Map& map) {
   std::mt19937 random(3);
   const float outside = 0.5f / static_cast<float>(map.width());
   std::uniform_real_distribution<float> along(-outside, 1 + outside);
-  Places places;
+  Positions positions;
   for (std::size_t i = 0; i < kCount; ++i) {
-    places.chart[i] = static_cast<float>(static_cast<int>(i) % map.charts());
-    places.u[i] = along(random);
-    places.v[i] = along(random);
+    positions.chart[i] = static_cast<float>(static_cast<int>(i) % map.charts());
+    positions.u[i] = along(random);
+    positions.v[i] = along(random);
   }
-  return places;
+  return positions;
 }
 
-std::vector<float> fetched(Fetch fetch, const Map& map, const Places& places) {
+std::vector<float> fetched(Fetch fetch, const Map& map, const Positions& positions) {
   std::vector<float> out(kCount * static_cast<std::size_t>(map.channels()) + 8);
-  fetch(view_of(map.level), places.chart.data(), places.u.data(), places.v.data(), out.data(), kCount);
+  fetch(view_of(map.level), positions.chart.data(), positions.u.data(), positions.v.data(), out.data(),
+        kCount);
   out.resize(out.size() - 8);
   return out;
 }
 
 std::vector<Fetch> all_kernels(int channels, FetchKernels (*table)(int)) {
   const FetchKernels k = table(channels);
-  return {k.nearest,        k.bilinear,      k.bicubic.plain,  k.bicubic.held,
-          k.lanczos3.plain, k.lanczos3.held, k.lanczos4.plain, k.lanczos4.held};
+  return {
+      k.nearest,          k.bilinear,           k.bicubic.unclamped, k.bicubic.clamped, k.lanczos3.unclamped,
+      k.lanczos3.clamped, k.lanczos4.unclamped, k.lanczos4.clamped};
 }
 
 /// Kernels that interpolate give a texel's own value at its centre, and those with weights of sum 1 a plane
@@ -55,16 +57,16 @@ TEST(FetchTest, CentresGiveTexelsAndPlanesStayPlanes) {
                    (0.5f + 0.25f * static_cast<float>(x) - 0.125f * static_cast<float>(y));
     }
   }
-  Places centres = random_places(map), anywhere = centres;
+  Positions centres = random_positions(map), anywhere = centres;
   for (std::size_t i = 0; i < kCount; ++i) {
     centres.u[i] = (std::floor(clamp(centres.u[i], 0.0f, 0.999f) * 32) + 0.5f) / 32;
     centres.v[i] = (std::floor(clamp(centres.v[i], 0.0f, 0.999f) * 16) + 0.5f) / 16;
   }
-  const auto expect_plane = [&](Fetch fetch, const Places& places, double tolerance) {
-    const std::vector<float> values = fetched(fetch, map, places);
+  const auto expect_plane = [&](Fetch fetch, const Positions& positions, double tolerance) {
+    const std::vector<float> values = fetched(fetch, map, positions);
     for (std::size_t i = 0; i < kCount; ++i) {
-      const double x = 32.0 * static_cast<double>(places.u[i]) - 0.5,
-                   y = 16.0 * static_cast<double>(places.v[i]) - 0.5;
+      const double x = 32.0 * static_cast<double>(positions.u[i]) - 0.5,
+                   y = 16.0 * static_cast<double>(positions.v[i]) - 0.5;
       for (std::size_t c = 0; c < 3; ++c) {
         const double expected = (static_cast<double>(c) + 1) * (0.5 + 0.25 * x - 0.125 * y);
         ASSERT_NEAR(values[3 * i + c], expected, tolerance) << i;
@@ -73,11 +75,11 @@ TEST(FetchTest, CentresGiveTexelsAndPlanesStayPlanes) {
   };
   for (const Fetch fetch : all_kernels(3, fetch_kernels)) expect_plane(fetch, centres, 1e-4);
   expect_plane(fetch_kernels(3).bilinear, anywhere, 2e-5);
-  expect_plane(fetch_kernels(3).bicubic.plain, anywhere, 4e-5);
+  expect_plane(fetch_kernels(3).bicubic.unclamped, anywhere, 4e-5);
 }
 
 /// The bounds that fetch.h states, by brute force over the inner 4×4 texels.
-TEST(FetchTest, HeldValuesKeepToTheirBounds) {
+TEST(FetchTest, ClampedValuesKeepToTheirBounds) {
   Map map = rendered("cube", 24, [](const Vec3d&) { return 0.0; });
   std::mt19937 random(9);
   for_each_place(map, [&](int chart, int x, int y) {
@@ -85,43 +87,43 @@ TEST(FetchTest, HeldValuesKeepToTheirBounds) {
         random() % 5 == 0 ? 1000.0f : 0.01f * static_cast<float>(random() % 100);
   });
   fill_borders(map);
-  const Places places = random_places(map);
+  const Positions positions = random_positions(map);
   bool any_changed = false;
   for (const RingingFetch& kernel :
        {fetch_kernels(1).bicubic, fetch_kernels(1).lanczos3, fetch_kernels(1).lanczos4}) {
-    const std::vector<float> plain = fetched(kernel.plain, map, places),
-                             held = fetched(kernel.held, map, places);
+    const std::vector<float> unclamped = fetched(kernel.unclamped, map, positions),
+                             clamped = fetched(kernel.clamped, map, positions);
     for (std::size_t i = 0; i < kCount; ++i) {
       const auto first = [&](float at) { return static_cast<int>(std::floor(at * 24.0f - 0.5f)) - 1; };
       float lowest = HUGE_VALF, highest = -HUGE_VALF;
-      for (int y = first(places.v[i]); y < first(places.v[i]) + 4; ++y) {
-        for (int x = first(places.u[i]); x < first(places.u[i]) + 4; ++x) {
-          lowest = std::min(lowest, *map.level.chart(static_cast<int>(places.chart[i])).at(x, y));
-          highest = std::max(highest, *map.level.chart(static_cast<int>(places.chart[i])).at(x, y));
+      for (int y = first(positions.v[i]); y < first(positions.v[i]) + 4; ++y) {
+        for (int x = first(positions.u[i]); x < first(positions.u[i]) + 4; ++x) {
+          lowest = std::min(lowest, *map.level.chart(static_cast<int>(positions.chart[i])).at(x, y));
+          highest = std::max(highest, *map.level.chart(static_cast<int>(positions.chart[i])).at(x, y));
         }
       }
       const float margin = 0.5f * (highest - lowest);
       const float floor = std::max(lowest - margin, std::min(lowest, 0.5f * lowest));
-      const float expected = clamp(plain[i], floor, highest + margin);
-      ASSERT_NEAR(held[i], expected, 1e-4f) << places.u[i] << "," << places.v[i];
-      any_changed = any_changed || held[i] != plain[i];
+      const float expected = clamp(unclamped[i], floor, highest + margin);
+      ASSERT_NEAR(clamped[i], expected, 1e-4f) << positions.u[i] << "," << positions.v[i];
+      any_changed = any_changed || clamped[i] != unclamped[i];
     }
   }
   EXPECT_TRUE(any_changed);
 }
 
-TEST(FetchTest, BadPlacesReadTexelsOfTheMapAndNoOtherMemory) {
+TEST(FetchTest, BadPositionsReadTexelsOfTheMapAndNoOtherMemory) {
   const Map map = rendered(
       "cube", 4, [](const Vec3d&) { return 2.0; }, 4);
-  Places places = random_places(map);
+  Positions positions = random_positions(map);
   const float bad[] = {NAN, INFINITY, -INFINITY, 1e30f, -1e30f, 7, -7};
   for (std::size_t i = 0; i < kCount; ++i) {
-    places.u[i] = bad[i % 7];
-    places.v[i] = bad[i / 7 % 7];
-    places.chart[i] = bad[i / 49 % 7];
+    positions.u[i] = bad[i % 7];
+    positions.v[i] = bad[i / 7 % 7];
+    positions.chart[i] = bad[i / 49 % 7];
   }
   for (const Fetch fetch : all_kernels(4, fetch_kernels)) {
-    const std::vector<float> values = fetched(fetch, map, places);
+    const std::vector<float> values = fetched(fetch, map, positions);
     for (std::size_t i = 0; i < values.size(); ++i) {
       ASSERT_NEAR(values[i], 2.0 * static_cast<double>(i % 4 + 1), 1e-4);
     }
@@ -133,11 +135,11 @@ TEST(FetchTest, BadPlacesReadTexelsOfTheMapAndNoOtherMemory) {
 TEST(FetchTest, InstructionSetsAgree) {
   for (const int channels : {1, 2, 3, 4, 5, 7}) {
     const Map map = rendered("cube", 24, waves(20, 20), channels);
-    const Places places = random_places(map);
+    const Positions positions = random_positions(map);
     const auto baseline = all_kernels(channels, fetch_kernels_baseline);
     const auto avx2 = all_kernels(channels, fetch_kernels_avx2);
     for (std::size_t k = 0; k < baseline.size(); ++k) {
-      const std::vector<float> a = fetched(baseline[k], map, places), b = fetched(avx2[k], map, places);
+      const std::vector<float> a = fetched(baseline[k], map, positions), b = fetched(avx2[k], map, positions);
       for (std::size_t i = 0; i < a.size(); ++i)
         ASSERT_NEAR(a[i], b[i], 1e-5 * channels) << channels << " kernel " << k;
     }

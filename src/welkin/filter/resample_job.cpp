@@ -21,7 +21,7 @@ ResampleJob::ResampleJob(const Map& from, Map& to, const ResampleOptions& how)
 
 Fetch ResampleJob::fetch_of(Filter filter) const {
   if (filter != Filter::automatic) return fetch_for(filter, options.allow_ringing, source.channels());
-  return options.allow_ringing ? kernels.lanczos4.plain : kernels.lanczos4.held;
+  return options.allow_ringing ? kernels.lanczos4.unclamped : kernels.lanczos4.clamped;
 }
 
 void Batch::locate(int target_chart, std::size_t count) {

@@ -72,8 +72,8 @@ Weights weights_at(Filter filter, double place, int size) {
 
 /// The rule of RingingFetch: at most half the range of the inner 4×4 texels beyond that range, and not below
 /// half the lowest.
-double hold(const ImageView<const float>& chart, const Weights& across, const Weights& down, int channel,
-            double value) {
+double limit_overshoot(const ImageView<const float>& chart, const Weights& across, const Weights& down,
+                       int channel, double value) {
   const int margin = (across.count - 4) / 2;
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (int j = 0; j < 4; ++j) {
@@ -152,7 +152,8 @@ class Reference {
           value[c] += weight * static_cast<double>(chart.at(across.first + i, down.first + j)[channel]);
         }
       }
-      if (rings && !options_.allow_ringing) value[c] = hold(chart, across, down, channel, value[c]);
+      if (rings && !options_.allow_ringing)
+        value[c] = limit_overshoot(chart, across, down, channel, value[c]);
     }
   }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "welkin/base/error.h"
-#include "welkin/filter/sample.h"
+#include "welkin/filter/sampler.h"
 
 namespace welkin {
 
@@ -20,12 +20,13 @@ Image with_safety_border(const Map& map, int index, int border) {
   check_border(border, {width, height});
   const ImageView<const float> chart = map.level.chart(index);
   const auto& p = map.parameterization;
+  const Sampler sampler = Sampler::borrow(map, {.filter = Filter::bicubic});
   Image out(width + 2 * border, height + 2 * border, channels);
   const auto outside = [&](int x, int y, float* to) {
     const Vec3d d = p.to_sphere(index, (x + 0.5) / width, (y + 0.5) / height);
     if (p.covers(d)) {
       const Vec3d world = transpose(map.orientation) * d;
-      return sample(map, map.level, {&world, 1}, Filter::bicubic, {to, static_cast<std::size_t>(channels)});
+      return sampler.look_up(world, {to, static_cast<std::size_t>(channels)});
     }
     std::copy_n(chart.at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)), channels, to);
   };

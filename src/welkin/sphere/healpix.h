@@ -36,7 +36,9 @@ struct Healpix : WholeWorld {
     // The equatorial belt: count the rising and the falling diagonals.
     const T rise = constant<T>(0.75) * h.height;
     const T rising = half + turn - rise, falling = half + turn + rise;
-    const T row_r = floor(rising), row_f = floor(falling);
+    // Neighbouring rows: in a corner of a chart, rounding may set one number to the next whole one too soon.
+    const T floor_r = floor(rising), floor_f = floor(falling);
+    const T row_r = min(floor_r, floor_f + one), row_f = min(floor_f, floor_r + one);
     const auto on_equator = row_r == row_f, over = row_r < row_f;
     const T belt_chart =
         select(on_equator, wrap(row_r) + four, select(over, wrap(row_r), wrap(row_f) + eight));

@@ -22,11 +22,12 @@ struct LatLong : WholeWorld {
     return {sine * sin(longitude), cos(colatitude), sine * cos(longitude)};
   }
 
-  /// acos(y) is written atan2(√(x² + z²), y), which keeps its precision at the poles and takes any length.
+  /// acos(y) is written as the polar angle of (√(x² + z²), y), which keeps its precision at the poles and
+  /// takes any length.
   template <class T>
   ChartPoint<T> from_sphere(const Vec3<T>& d) const {
     const T around = longitude_of(d);
-    const T down = atan2(sqrt(d.x * d.x + d.z * d.z), d.y);
+    const T down = polar_angle(sqrt(d.x * d.x + d.z * d.z), d.y);
     return {constant<T>(0), constant<T>(0.5) - constant<T>(0.5 / kPi) * around, constant<T>(1 / kPi) * down};
   }
 

