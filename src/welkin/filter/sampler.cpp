@@ -10,7 +10,7 @@ namespace welkin {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw Error("look-up: " + why);
+  throw Error(ErrorKind::bad_request, "look-up: " + why);
 }
 
 [[noreturn]] void refuse_level(double level, int levels) {
