@@ -239,7 +239,7 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
 
   std::vector<Level> grids;
   for (const HarmonicLevel& level : t.harmonic) {
-    grids.emplace_back(1, level.grid.width, level.grid.height, source.channels());
+    grids.emplace_back(1, level.grid.width, level.grid.height, source.channels(), PixelContents::unset);
   }
   for (int first = 0; first < source.channels(); first += 3) {
     const double share = 0.28 / source.channels(), from = 0.22 + first * share;

@@ -110,7 +110,7 @@ std::vector<Level> run_near(const NearGroup& group, const Map& source, const Mon
   const Moments moments = moments_of(source, group.moments, part_of(monitor, 0, 0.2));
   std::vector<Level> grids;
   for (const NearLevel& level : group.levels) {
-    grids.emplace_back(1, level.grid.width, level.grid.height, source.channels());
+    grids.emplace_back(1, level.grid.width, level.grid.height, source.channels(), PixelContents::unset);
   }
   constexpr int kPacks = 8;
   const int bands = (moments.packs + kPacks - 1) / kPacks, groups = (source.channels() + 2) / 3;
