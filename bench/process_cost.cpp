@@ -1,9 +1,8 @@
-// What it costs to run a program: the median over several runs of its processor time, wall time and peak
-// memory.
+// What it costs to run a program: the median over several runs of its processor time, wall time, peak memory
+// and page faults.
 //
-// process_cost RUNS PROGRAM [ARGUMENT…]     prints `CPU_SECONDS WALL_SECONDS PEAK_MEGABYTES`, after one run
-// to warm up
-//                                           unless RUNS is 1
+// process_cost RUNS PROGRAM [ARGUMENT…]     prints `CPU_SECONDS WALL_SECONDS PEAK_MEGABYTES PAGE_FAULTS`,
+//                                           after one run to warm up unless RUNS is 1
 //
 // The program's standard output is dropped. Fails when the program does. Children of the program count too,
 // as far as it waits for them; memory is that of the largest of them.
@@ -22,7 +21,7 @@
 namespace {
 
 struct Cost {
-  double cpu, wall, megabytes;
+  double cpu, wall, megabytes, faults;
 };
 
 double seconds(const timeval& time) {
@@ -51,7 +50,7 @@ Cost run(char** command) {
   }
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), wall,
-          static_cast<double>(usage.ru_maxrss) * 1024e-6};
+          static_cast<double>(usage.ru_maxrss) * 1024e-6, static_cast<double>(usage.ru_minflt + usage.ru_majflt)};
 }
 
 }  // namespace
@@ -63,13 +62,14 @@ int main(int argc, char** argv) {
     return 2;
   }
   if (runs > 1) run(argv + 2);
-  std::vector<double> cpu, wall, megabytes;
+  std::vector<double> cpu, wall, megabytes, faults;
   for (int i = 0; i < runs; ++i) {
     const Cost cost = run(argv + 2);
     cpu.push_back(cost.cpu);
     wall.push_back(cost.wall);
     megabytes.push_back(cost.megabytes);
+    faults.push_back(cost.faults);
   }
   using welkin::bench::median_of;
-  std::printf("%.5f %.5f %.1f\n", median_of(cpu), median_of(wall), median_of(megabytes));
+  std::printf("%.5f %.5f %.1f %.0f\n", median_of(cpu), median_of(wall), median_of(megabytes), median_of(faults));
 }
