@@ -50,7 +50,8 @@ Cost run(char** command) {
   }
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), wall,
-          static_cast<double>(usage.ru_maxrss) * 1024e-6, static_cast<double>(usage.ru_minflt + usage.ru_majflt)};
+          static_cast<double>(usage.ru_maxrss) * 1024e-6,
+          static_cast<double>(usage.ru_minflt + usage.ru_majflt)};
 }
 
 }  // namespace
@@ -71,5 +72,6 @@ int main(int argc, char** argv) {
     faults.push_back(cost.faults);
   }
   using welkin::bench::median_of;
-  std::printf("%.5f %.5f %.1f %.0f\n", median_of(cpu), median_of(wall), median_of(megabytes), median_of(faults));
+  std::printf("%.5f %.5f %.1f %.0f\n", median_of(cpu), median_of(wall), median_of(megabytes),
+              median_of(faults));
 }

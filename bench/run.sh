@@ -3,7 +3,7 @@
 #
 # run.sh BUILD_FOLDER [WHAT…]
 #   WHAT               resample_speed filter_quality round_trip every_parameterization read_speed commands peers
-#                      prefilter_speed prefilter_quality prefilter_narrow bake bake_peers;
+#                      prefilter_speed prefilter_quality prefilter_narrow bake cold bake_peers;
 #                      some of these are only printed
 #
 #   WELKIN_BENCH_THREADS=N   threads (2)
@@ -14,7 +14,7 @@
 set -euo pipefail
 
 everything=(resample_speed filter_quality round_trip every_parameterization read_speed commands peers
-  prefilter_speed prefilter_quality prefilter_narrow bake bake_peers)
+  prefilter_speed prefilter_quality prefilter_narrow bake cold bake_peers)
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 build=$(cd -- "${1:?run.sh BUILD_FOLDER [WHAT…]}" && pwd)
 shift
@@ -46,7 +46,7 @@ machine() {
 
 run_one() {
   case $1 in
-    commands | peers | bake | bake_peers) bash "$here/$1.sh" "$build" "$work" ;;
+    commands | peers | bake | cold | bake_peers) bash "$here/$1.sh" "$build" "$work" ;;
     read_speed) "$build/bench/read_speed" "$work" ;;
     *) "$build/bench/$1" ;;
   esac
