@@ -39,8 +39,8 @@ class Pictures {
     header.layers = layers == 1 ? 0 : layers;
     const auto pictures = static_cast<std::uint64_t>(levels) * static_cast<std::uint64_t>(layers) *
                           static_cast<std::uint64_t>(header.faces);
-    if (pictures > kMostPictures)
-      throw Error(std::to_string(pictures) + " pictures, more than " + std::to_string(kMostPictures));
+    if (pictures > kMaxPictures)
+      throw Error(std::to_string(pictures) + " pictures, more than " + std::to_string(kMaxPictures));
     header.levels.resize(static_cast<std::size_t>(levels));
     place(parts, header);
     check_sizes(header);
