@@ -36,7 +36,7 @@ void check_source(const Map& source, const std::string& in) {
   }
   if (faults.excessive > 0) {
     throw Error(fmt::format("{}: {} texels have values of over {:g}, too large to filter", in,
-                            faults.excessive, kMostRadiance));
+                            faults.excessive, kMaxRadiance));
   }
   if (faults.negative > 0) {
     tell(fmt::format(
