@@ -16,7 +16,7 @@ met() { awk -v value="$1" -v limit="$2" 'BEGIN { print value <= limit ? "yes" : 
 bake_row() {
   local name=$1 runs=$2 judged=$3 limit=$4 target=$5 cpu wall peak reached=
   shift 5
-  read -r cpu wall peak < <("$build/bench/process_cost" "$runs" "$welkin" bake "$@")
+  read -r cpu wall peak _ < <("$build/bench/process_cost" "$runs" "$welkin" bake "$@")
   if [[ -n $judged ]]; then reached=$(met "${!judged}" "$limit"); fi
   awk -v name="$name" -v cpu="$cpu" -v wall="$wall" -v peak="$peak" -v target="$target" -v met="$reached" \
     'BEGIN { printf "| %s | %.1f ms | %.1f ms | %.0f MB | %s | %s |\n", name, 1e3 * cpu, 1e3 * wall, peak, target, met }'

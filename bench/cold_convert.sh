@@ -19,7 +19,7 @@ row() {
   shift 3
   rm -f "$work"/cold.*.txt
   for ((round = 0; round < rounds; ++round)); do
-    "$build/bench/process_cost" --faults 1 "$welkin" convert -j "${WELKIN_BENCH_THREADS:-2}" "$work/cold_in.pfm" "$out" \
+    "$build/bench/process_cost" 1 "$welkin" convert -j "${WELKIN_BENCH_THREADS:-2}" "$work/cold_in.pfm" "$out" \
       --to "$layout" --size "$face" --filter bilinear "$@" >>"$work/cold.convert.txt"
     bytes=$(stat -c %s "$out")
     rm "$out"

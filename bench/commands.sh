@@ -15,7 +15,7 @@ met() { awk -v value="$1" -v limit="$2" 'BEGIN { print value <= limit ? "yes" : 
 start_row() {
   local name=$1 cpu wall peak
   shift
-  read -r cpu wall peak < <(cost 20 "$welkin" "$@")
+  read -r cpu wall peak _ < <(cost 20 "$welkin" "$@")
   awk -v name="$name" -v cpu="$cpu" -v wall="$wall" -v peak="$peak" -v met="$(met "$cpu" 0.015)" \
     'BEGIN { printf "| %s | %.1f ms | %.1f ms | %.0f MB | ≤ 15 ms CPU | %s |\n", name, 1e3 * cpu, 1e3 * wall, peak, met }'
 }
@@ -24,7 +24,7 @@ start_row() {
 large_row() {
   local name=$1 cpu wall peak
   shift
-  read -r cpu wall peak < <(cost 3 "$welkin" convert -j "${WELKIN_BENCH_THREADS:-2}" "$@")
+  read -r cpu wall peak _ < <(cost 3 "$welkin" convert -j "${WELKIN_BENCH_THREADS:-2}" "$@")
   awk -v name="$name" -v cpu="$cpu" -v wall="$wall" -v peak="$peak" -v met="$(met "$peak" 3000)" \
     'BEGIN { printf "| %s | %.2f s | %.2f s | %.0f MB | < 3000 MB | %s |\n", name, cpu, wall, peak, met }'
 }

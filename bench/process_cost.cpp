@@ -1,10 +1,8 @@
-// What it costs to run a program: the median over several runs of its processor time, wall time and peak
-// memory.
+// What it costs to run a program: the median over several runs of its processor time, wall time, peak memory
+// and page faults.
 //
-// process_cost RUNS PROGRAM [ARGUMENT…]     prints `CPU_SECONDS WALL_SECONDS PEAK_MEGABYTES`, after one run
-// to warm up
-//                                           unless RUNS is 1
-// process_cost --faults RUNS PROGRAM […]    prints its page faults too, as a fourth number
+// process_cost RUNS PROGRAM [ARGUMENT…]     prints `CPU_SECONDS WALL_SECONDS PEAK_MEGABYTES PAGE_FAULTS`,
+//                                           after one run to warm up unless RUNS is 1
 //
 // The program's standard output is dropped. Fails when the program does. Children of the program count too,
 // as far as it waits for them; memory is that of the largest of them.
@@ -17,7 +15,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 
 #include "harness.h"
 
@@ -60,11 +57,9 @@ Cost run(char** command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool with_faults = argc > 1 && std::strcmp(argv[1], "--faults") == 0;
-  if (with_faults) --argc, ++argv;
   const int runs = argc > 2 ? std::atoi(argv[1]) : 0;
   if (runs < 1) {
-    std::fprintf(stderr, "process_cost [--faults] RUNS PROGRAM [ARGUMENT…]\n");
+    std::fprintf(stderr, "process_cost RUNS PROGRAM [ARGUMENT…]\n");
     return 2;
   }
   if (runs > 1) run(argv + 2);
@@ -77,7 +72,6 @@ int main(int argc, char** argv) {
     faults.push_back(cost.faults);
   }
   using welkin::bench::median_of;
-  std::printf("%.5f %.5f %.1f", median_of(cpu), median_of(wall), median_of(megabytes));
-  if (with_faults) std::printf(" %.0f", median_of(faults));
-  std::printf("\n");
+  std::printf("%.5f %.5f %.1f %.0f\n", median_of(cpu), median_of(wall), median_of(megabytes),
+              median_of(faults));
 }

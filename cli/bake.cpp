@@ -66,6 +66,7 @@ PrefilterOptions Bake::parse_options() const {
   PrefilterOptions options;
   options.tolerance = parse_tolerance(tolerance);
   options.scale = normalisation == "integral" ? LobeScale::integral : LobeScale::average;
+  options.borders = false;  // filled before writing, where the file has them
   options.mirror_filter = parse_option("--filter", [&] { return filter_from_name(filter); });
   return options;
 }

@@ -39,7 +39,7 @@ void check_source(const Map& source, const std::string& in) {
   if (faults.excessive > 0) {
     throw Error(ErrorKind::bad_value, in,
                 fmt::format("{} texels have values of over {:g}, too large to filter", faults.excessive,
-                            kMostRadiance));
+                            kMaxRadiance));
   }
   if (faults.negative > 0) {
     tell(fmt::format(

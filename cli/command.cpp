@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "progress.h"
+#include "welkin/base/error.h"
 #include "welkin/io/output_file.h"
 #include "welkin/sphere/convention.h"
 

@@ -59,7 +59,7 @@ Facts facts_of(const lobe::AnyLobe& lobe) {
   facts.integral = lobe.integral();
   facts.width = lobe.width() * kDegrees;
   for (std::size_t i = 0; i < kShares.size(); ++i)
-    facts.holding[i] = lobe::angle_holding(lobe, kShares[i]) * kDegrees;
+    facts.holding[i] = lobe::energy_cone_angle(lobe, kShares[i]) * kDegrees;
   return facts;
 }
 

@@ -20,7 +20,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/welkin/ DESTINATION ${include_destin
         PATTERN "*test*" EXCLUDE
         REGEX "/src/welkin/(io|synth|image)$" EXCLUDE
         REGEX "/lobe/(all|angle|blinn|charlie|ggx|kernels|lambert|panels|phong|table|table_file|table_points|von_mises_fisher)\\.h$" EXCLUDE
-        REGEX "/prefilter/(bright_points|buffer|fft|kernels|lagrange|lanes|legendre|level_texels|moments|near_field|sampled_lobe|scatter|spline_grid|tables|widen)\\.h$" EXCLUDE)
+        REGEX "/prefilter/(bright_points|buffer|fft|harmonics|kernels|lagrange|lanes|legendre|level_texels|near|near_field|plan|point_grid|sampled_lobe|spline_grid|spreading|widen)\\.h$" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/io/image_file.h DESTINATION ${include_destination}/io)
 install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/synth/synth.h ${PROJECT_SOURCE_DIR}/src/welkin/synth/render_synth.h DESTINATION ${include_destination}/synth)
 install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/image/image.h DESTINATION ${include_destination}/image)

@@ -1,11 +1,43 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 namespace welkin {
 
-/// Asks the system to back this memory with large pages where it can: touching new memory for the first time
-/// costs several times less. Does nothing for less than 4 MiB, and on systems without the call.
-void prefer_large_pages(void* memory, std::size_t bytes);
+/// Memory for pixels and tables, on a 64-byte boundary.
+///
+/// Blocks of 64 KiB and more are cut out of regions of 64 MiB that ask the system for huge pages, one after
+/// the other, so that touching them for the first time costs one page fault for 2 MiB; those of over 32 MiB
+/// have regions of their own. What is given back goes to the next who asks: at most one region is kept that
+/// nobody uses. Where the system has no such pages, and under AddressSanitizer, it is the heap's. Safe from
+/// many threads.
+class LargeMemory {
+ public:
+  enum class Contents {
+    zero,
+    unset,  ///< whatever is there: for those who write all of it
+  };
+
+  LargeMemory() = default;
+  /// Throws std::bad_alloc.
+  LargeMemory(std::size_t bytes, Contents contents);
+  LargeMemory(LargeMemory&& other) noexcept
+      : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+  LargeMemory& operator=(LargeMemory&& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    return *this;
+  }
+  ~LargeMemory();
+
+  std::byte* data() { return data_; }
+  const std::byte* data() const { return data_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::byte* data_ = nullptr;
+  std::size_t size_ = 0;
+};
 
 }  // namespace welkin

@@ -4,6 +4,7 @@
 
 #include <tbb/global_control.h>
 
+#include "welkin/base/error.h"
 #include "welkin/filter/resample_cases.h"
 #include "welkin/map/map_cases.h"
 

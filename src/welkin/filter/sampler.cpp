@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/filter/sampler_job.h"
 #include "welkin/map/pyramid.h"
 

@@ -2,26 +2,18 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "welkin/base/error.h"
-#include "welkin/base/large_memory.h"
 
 namespace welkin {
 namespace {
 
-constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kReadablePastEnd = 64;
 
 }  // namespace
 
-void Image::Free::operator()(float* p) const {
-  std::free(p);
-}
-
-Image::Image(int width, int height, int channels) {
+Image::Image(int width, int height, int channels, PixelContents contents) {
   if (width <= 0 || height <= 0 || channels <= 0) {
     throw Error(ErrorKind::bad_request, "an image of " + std::to_string(width) + "×" +
                                             std::to_string(height) + " texels and " +
@@ -32,15 +24,8 @@ Image::Image(int width, int height, int channels) {
   if (texels > most / static_cast<std::uint64_t>(channels))
     throw Error(ErrorKind::too_large, "image size overflows");
   const std::size_t values = static_cast<std::size_t>(texels) * static_cast<std::size_t>(channels);
-  // calloc hands out fresh pages without touching them, so a large image costs nothing until it is written.
-  const std::size_t bytes = values * sizeof(float) + kReadablePastEnd + kAlignment;
-  float* base = static_cast<float*>(std::calloc(bytes, 1));
-  if (base == nullptr) throw std::bad_alloc();
-  values_.reset(base);
-  prefer_large_pages(base, bytes);
-  const auto address = reinterpret_cast<std::uintptr_t>(base);
-  const std::size_t skip = (kAlignment - address % kAlignment) % kAlignment;
-  view_ = {base + skip / sizeof(float), width, height, channels,
+  values_ = LargeMemory(values * sizeof(float) + kReadablePastEnd, contents);
+  view_ = {reinterpret_cast<float*>(values_.data()), width, height, channels,
            static_cast<std::ptrdiff_t>(width) * channels};
 }
 

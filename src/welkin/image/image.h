@@ -2,8 +2,9 @@
 
 #include <cassert>
 #include <cstddef>
-#include <memory>
 #include <type_traits>
+
+#include "welkin/base/large_memory.h"
 
 namespace welkin {
 
@@ -29,7 +30,10 @@ struct ImageView {
   }
 };
 
-/// Pixels of 32-bit float that are owned here; zero on creation. Knows no sphere.
+/// What new pixels hold: zero, or whatever is there, for those who write all of them.
+using PixelContents = LargeMemory::Contents;
+
+/// Pixels of 32-bit float that are owned here. Knows no sphere.
 ///
 /// The buffer starts on a 64-byte boundary and has at least 64 readable bytes after the last value, so that a
 /// SIMD load may run past a row's end.
@@ -38,7 +42,7 @@ class Image {
   Image() = default;
 
   /// Throws Error when the size is negative or overflows, std::bad_alloc when there is no memory.
-  Image(int width, int height, int channels);
+  Image(int width, int height, int channels, PixelContents contents = PixelContents::zero);
 
   int width() const { return view_.width; }
   int height() const { return view_.height; }
@@ -51,10 +55,7 @@ class Image {
   const float* at(int x, int y) const { return view_.at(x, y); }
 
  private:
-  struct Free {
-    void operator()(float* p) const;
-  };
-  std::unique_ptr<float[], Free> values_;
+  LargeMemory values_;
   ImageView<float> view_;
 };
 

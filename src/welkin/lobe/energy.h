@@ -6,6 +6,6 @@ namespace welkin::lobe {
 
 /// The angle from the axis, radians, within which the lobe has this share, 0 … 1, of its energy ∫ w dω.
 /// Relative error 1e-9 in the energy. 0 for a mirror.
-double angle_holding(const AnyLobe& lobe, double share);
+double energy_cone_angle(const AnyLobe& lobe, double share);
 
 }  // namespace welkin::lobe

@@ -56,11 +56,11 @@ struct PointSumsOf {
                  pz = Pack::load_unaligned(z + i);
       Pack sum[kChannels];
       for (Pack& each : sum) each = Pack(0.0f);
-      const float* mass = points.mass + first;
-      for (int k = 0; k < points.count; ++k, mass += n) {
+      const float* light = points.weight + first;
+      for (int k = 0; k < points.count; ++k, light += n) {
         const Pack dx = px - Pack(points.x[k]), dy = py - Pack(points.y[k]), dz = pz - Pack(points.z[k]);
         const Pack weight = lobe.template weight<Pack>(Pack(0.5f) * (dx * dx + dy * dy + dz * dz));
-        for (int c = 0; c < kChannels; ++c) sum[c] = xsimd::fma(weight, Pack(mass[c]), sum[c]);
+        for (int c = 0; c < kChannels; ++c) sum[c] = xsimd::fma(weight, Pack(light[c]), sum[c]);
       }
       alignas(64) float lanes[kStep];
       for (int c = 0; c < kChannels; ++c) {

@@ -16,15 +16,15 @@ namespace welkin::lobe {
 /// `weights` for one instruction set: see AnyLobe::weights. `self` is the lobe's struct.
 using Weights = void (*)(const void* self, const float* s, float* weights, std::size_t count);
 
-/// Points with masses, for sums over them: `mass` has `channels` values for each.
+/// Weighted points, for sums over them: `weight` has `channels` values for each.
 struct Points {
   const float *x, *y, *z;
-  const float* mass;
+  const float* weight;
   int count = 0;
   int channels = 0;
 };
 
-/// values[i·channels + c] += Σ_k w(|d_i − point_k|²/2) mass[k·channels + c] for unit directions d_i, i <
+/// values[i·channels + c] += Σ_k w(|d_i − point_k|²/2) weight[k·channels + c] for unit directions d_i, i <
 /// count. Arrays of directions are read up to the next multiple of 16.
 using PointSums = void (*)(const void* self, const Points& points, const float* x, const float* y,
                            const float* z, float* values, std::size_t count);

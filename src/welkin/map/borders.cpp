@@ -91,6 +91,17 @@ Vec3d direction_of(const AnyParameterization& p, const Level& level, const Texel
   return p.to_sphere(t.chart, clamp(u, -1.0, 2.0), clamp(v, -1.0, 2.0));
 }
 
+/// Where the map has a texel's value: in texels of a chart, 0 at the first one's centre.
+struct Position {
+  int chart;
+  double x, y;
+};
+
+Position position_of(const AnyParameterization& p, const Level& level, const Vec3d& direction) {
+  const auto place = p.from_sphere(direction);
+  return {static_cast<int>(place.chart), place.u * level.width() - 0.5, place.v * level.height() - 0.5};
+}
+
 /// Weights of Keys' cubic (a = −½) for texels −1, 0, 1, 2 of a fraction.
 void cubic_weights(double f, double* w) {
   const double g = 1 - f;
@@ -100,17 +111,26 @@ void cubic_weights(double f, double* w) {
   w[3] = -0.5 * g * f * f;
 }
 
-/// First pass: only texels inside charts that are valid are read.
-Fill first_value(const AnyParameterization& p, const Level& level, const Texel& t, bool whole, float* out) {
+/// Later passes read so many texels past a chart's edge.
+constexpr int kReach = 2;
+
+/// What of a parameterization's charts are places of the map.
+struct Extent {
+  bool full_charts;  ///< all of every chart
+  bool whole_world;  ///< and every direction is in one
+};
+
+/// First pass: only texels inside charts that are valid are read. Sets `position` of what is known.
+Fill first_value(const AnyParameterization& p, const Level& level, const Texel& t, const Extent& extent,
+                 Position& position, float* out) {
   const Vec3d d = direction_of(p, level, t);
   if (!p.covers(d)) return Fill::unknown;
-  const auto place = p.from_sphere(d);
-  const int chart = static_cast<int>(place.chart);
-  const double x = place.u * level.width() - 0.5, y = place.v * level.height() - 0.5;
+  position = position_of(p, level, d);
+  const auto [chart, x, y] = position;
   const double near_x = std::round(x), near_y = std::round(y);
-  const auto inside = [&](int i, int j) {
+  const auto inside = [&, chart = chart](int i, int j) {
     return i >= 0 && i < level.width() && j >= 0 && j < level.height() &&
-           (whole || p.valid(chart, (i + 0.5) / level.width(), (j + 0.5) / level.height()));
+           (extent.full_charts || p.valid(chart, (i + 0.5) / level.width(), (j + 0.5) / level.height()));
   };
   const ImageView<const float> source = level.chart(chart);
   const double tolerance = 1e-6;
@@ -119,6 +139,10 @@ Fill first_value(const AnyParameterization& p, const Level& level, const Texel& 
     std::copy_n(source.at(static_cast<int>(near_x), static_cast<int>(near_y)), level.channels(), out);
     return Fill::exact;
   }
+  // A later pass overwrites what lies farther out, and none reads it before.
+  if (extent.whole_world &&
+      (t.x < -kReach || t.x >= level.width() + kReach || t.y < -kReach || t.y >= level.height() + kReach))
+    return Fill::interpolated;
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
   const double fx = x - ix, fy = y - iy;
   double total = 0;
@@ -138,31 +162,47 @@ Fill first_value(const AnyParameterization& p, const Level& level, const Texel& 
   return Fill::interpolated;
 }
 
-/// Later passes: the whole Catmull–Rom kernel, borders included, held to the range of the four nearest
-/// texels.
-void later_value(const AnyParameterization& p, const Level& level, const Texel& t, float* out) {
-  const auto place = p.from_sphere(direction_of(p, level, t));
-  const int chart = static_cast<int>(place.chart);
-  const double x = clamp(place.u * level.width() - 0.5, -1.0, static_cast<double>(level.width()));
-  const double y = clamp(place.v * level.height() - 0.5, -1.0, static_cast<double>(level.height()));
-  const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
+/// The texel before a position whose Catmull–Rom kernel reads kReach texels past the edge at most.
+int texel_before(double x, int size) {
+  return static_cast<int>(std::floor(clamp(x, -1.0, static_cast<double>(size))));
+}
+
+/// Later passes: the whole Catmull–Rom kernel, borders included, held to the range of the texels that it
+/// reads.
+void later_value(const Level& level, const Position& position, float* out) {
+  const double x = clamp(position.x, -1.0, static_cast<double>(level.width()));
+  const double y = clamp(position.y, -1.0, static_cast<double>(level.height()));
+  const int ix = texel_before(x, level.width()), iy = texel_before(y, level.height());
   double wx[4], wy[4];
   cubic_weights(x - ix, wx);
   cubic_weights(y - iy, wy);
-  const ImageView<const float> source = level.chart(chart);
-  for (int c = 0; c < level.channels(); ++c) {
-    double sum = 0;
-    float lowest = source.at(ix, iy)[c], highest = lowest;
+  const ImageView<const float> source = level.chart(position.chart);
+  // Four channels at a time: past the last there is always something to be read.
+  for (int first = 0; first < level.channels(); first += 4) {
+    double sum[4] = {};
+    float minimum[4], maximum[4];
+    std::copy_n(source.at(ix, iy) + first, 4, minimum);
+    std::copy_n(minimum, 4, maximum);
     for (int j = 0; j < 4; ++j) {
       for (int i = 0; i < 4; ++i) {
-        const float value = source.at(ix + i - 1, iy + j - 1)[c];
-        sum += wx[i] * wy[j] * static_cast<double>(value);
-        lowest = std::min(lowest, value);
-        highest = std::max(highest, value);
+        const float* value = source.at(ix + i - 1, iy + j - 1) + first;
+        const double weight = wx[i] * wy[j];
+        for (int c = 0; c < 4; ++c) {
+          sum[c] += weight * static_cast<double>(value[c]);
+          minimum[c] = value[c] < minimum[c] ? value[c] : minimum[c];
+          maximum[c] = maximum[c] < value[c] ? value[c] : maximum[c];
+        }
       }
     }
-    out[c] = clamp(static_cast<float>(sum), lowest, highest);
+    for (int c = 0; c < std::min(4, level.channels() - first); ++c)
+      out[first + c] = clamp(static_cast<float>(sum[c]), minimum[c], maximum[c]);
   }
+}
+
+/// Whether the kernel there reads texels of the chart alone, which no pass changes.
+bool reads_chart_alone(const Level& level, const Position& position) {
+  const int ix = texel_before(position.x, level.width()), iy = texel_before(position.y, level.height());
+  return ix >= 1 && iy >= 1 && ix + 2 < level.width() && iy + 2 < level.height();
 }
 
 /// Texels without a value take the mean of their neighbours that have one, ring by ring. Texels inside a
@@ -234,6 +274,7 @@ void fill_borders(const AnyParameterization& p, Level& level) {
   const std::size_t channels = static_cast<std::size_t>(level.channels());
   std::vector<float> values(texels.size() * channels);
   std::vector<Fill> fills(texels.size());
+  std::vector<Position> positions(texels.size());
   const auto for_all = [&](const auto& body) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels.size(), 1024), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
@@ -246,8 +287,9 @@ void fill_borders(const AnyParameterization& p, Level& level) {
                   level.chart(texels[i].chart).at(texels[i].x, texels[i].y));
     }
   };
+  const Extent extent{whole, whole && p.whole_world()};
   for_all([&](std::size_t i) {
-    fills[i] = first_value(p, level, texels[i], whole, values.data() + i * channels);
+    fills[i] = first_value(p, level, texels[i], extent, positions[i], values.data() + i * channels);
   });
   scatter();
   std::vector<Texel> known, missing;
@@ -262,7 +304,9 @@ void fill_borders(const AnyParameterization& p, Level& level) {
   // there.
   for (int pass = 0; pass < 2; ++pass) {
     for_all([&](std::size_t i) {
-      if (fills[i] == Fill::interpolated) later_value(p, level, texels[i], values.data() + i * channels);
+      if (fills[i] != Fill::interpolated) return;
+      later_value(level, positions[i], values.data() + i * channels);
+      if (whole && reads_chart_alone(level, positions[i])) fills[i] = Fill::exact;
     });
     scatter();
   }

@@ -7,7 +7,7 @@
 
 namespace welkin {
 
-Level::Level(int charts, int width, int height, int channels)
+Level::Level(int charts, int width, int height, int channels, PixelContents contents)
     : charts_(charts), width_(width), height_(height) {
   require(charts > 0, "a level has at least one chart");
   constexpr int kLargestSide = 1 << 20;
@@ -21,7 +21,7 @@ Level::Level(int charts, int width, int height, int channels)
     throw Error(ErrorKind::bad_request, "a map has 1 to " + std::to_string(kMostChannels) +
                                             " channels, not " + std::to_string(channels));
   }
-  storage_ = Image(width + 2 * kBorder, (height + 2 * kBorder) * charts, channels);
+  storage_ = Image(width + 2 * kBorder, (height + 2 * kBorder) * charts, channels, contents);
 }
 
 ImageView<float> Level::chart(int index) {
@@ -56,9 +56,9 @@ std::vector<std::string> default_channel_names(int count) {
   return names;
 }
 
-Map::Map(sphere::AnyParameterization which, int width, int height, int channels)
+Map::Map(sphere::AnyParameterization which, int width, int height, int channels, PixelContents contents)
     : parameterization(which.at_size(width, height)),
-      level(parameterization.charts(), width, height, channels),
+      level(parameterization.charts(), width, height, channels, contents),
       channel_names(default_channel_names(channels)) {}
 
 void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart,

@@ -20,7 +20,7 @@ inline constexpr int kMostChannels = 64;
 class Level {
  public:
   Level() = default;
-  Level(int charts, int width, int height, int channels);
+  Level(int charts, int width, int height, int channels, PixelContents contents = PixelContents::zero);
 
   int charts() const { return charts_; }
   int width() const { return width_; }
@@ -48,8 +48,10 @@ struct Map {
   std::vector<std::string> channel_names;
   Matrix3 orientation;
 
-  /// A black map of charts of width × height. Channel names: R G B, R G B A, Y, Y A, else C0 C1….
-  Map(sphere::AnyParameterization parameterization, int width, int height, int channels);
+  /// A map of charts of width × height, black unless told otherwise. Channel names: R G B, R G B A, Y, Y A,
+  /// else C0 C1….
+  Map(sphere::AnyParameterization parameterization, int width, int height, int channels,
+      PixelContents contents = PixelContents::zero);
 
   int charts() const { return level.charts(); }
   int width() const { return level.width(); }

@@ -15,43 +15,42 @@ namespace {
 
 constexpr int kWidth = 60, kHeight = 44, kChannels = 2;
 
-/// The mass of a row and column.
-float& at(Moments& moments, int x, int y, int c) {
-  const int north = std::min(y, moments.height - 1 - y);
-  return moments.at(north / 8, c)[x * 16 + north % 8 + (y == north ? 0 : 8)];
+/// The weight of a row and column.
+float& at(PointGrid& grid, int x, int y, int c) {
+  const int north = std::min(y, grid.height - 1 - y);
+  return grid.at(north / 8, c)[x * 16 + north % 8 + (y == north ? 0 : 8)];
 }
 
 /// A dim noise and `lamps` lamps of random sizes 10² … 10⁴, some of them negative; the lanes past the equator
 /// 0.
-Moments noise(int lamps) {
-  Moments moments(kWidth, kHeight, kChannels);
-  std::fill_n(moments.lanes.data(), moments.lanes.size(), 0.0f);
+PointGrid noise(int lamps) {
+  PointGrid grid(kWidth, kHeight, kChannels);
+  std::fill_n(grid.lanes.data(), grid.lanes.size(), 0.0f);
   std::mt19937 random(1);
   std::uniform_real_distribution<float> value(0.1f, 0.2f), decades(2, 4);
   std::uniform_int_distribution<int> column(0, kWidth - 1), row(0, kHeight - 1);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      for (int c = 0; c < kChannels; ++c) at(moments, x, y, c) = value(random);
+      for (int c = 0; c < kChannels; ++c) at(grid, x, y, c) = value(random);
     }
   }
   for (int i = 0; i < lamps; ++i) {
     const int x = column(random), y = row(random);
-    at(moments, x, y, i % 2) = (i % 5 == 0 ? -1.0f : 1.0f) * std::pow(10.0f, decades(random));
+    at(grid, x, y, i % 2) = (i % 5 == 0 ? -1.0f : 1.0f) * std::pow(10.0f, decades(random));
   }
-  return moments;
+  return grid;
 }
 
-double total(Moments& moments, int c) {
+double total(PointGrid& grid, int c) {
   double sum = 0;
-  for (int i = 0; i < kWidth * kHeight; ++i)
-    sum += static_cast<double>(at(moments, i % kWidth, i / kWidth, c));
+  for (int i = 0; i < kWidth * kHeight; ++i) sum += static_cast<double>(at(grid, i % kWidth, i / kWidth, c));
   return sum;
 }
 
 double total(const BrightPoints& points, int c) {
   double sum = 0;
   for (int i = 0; i < points.count(); ++i)
-    sum += static_cast<double>(points.mass[static_cast<std::size_t>(i * points.channels + c)]);
+    sum += static_cast<double>(points.weight[static_cast<std::size_t>(i * points.channels + c)]);
   return sum;
 }
 
@@ -59,14 +58,14 @@ double total(const BrightPoints& points, int c) {
 TEST(BrightPoints, TakenAndLeftAreAll) {
   for (const bool boxes : {false, true}) {
     for (const int lamps : {0, 1, 30, 200}) {
-      Moments moments = noise(lamps);
-      moments.boxes = boxes;
-      const double before[] = {total(moments, 0), total(moments, 1)};
-      const BrightPoints points = take_bright_points(moments, {}, {});
+      PointGrid grid = noise(lamps);
+      grid.boxes = boxes;
+      const double before[] = {total(grid, 0), total(grid, 1)};
+      const BrightPoints points = take_bright_points(grid, {}, {});
       EXPECT_EQ(points.count() > 0, lamps > 0);
       EXPECT_EQ(points.channels, kChannels);
       for (int c = 0; c < kChannels; ++c)
-        EXPECT_NEAR((total(moments, c) + total(points, c)) / before[c], 1, 1e-6) << lamps;
+        EXPECT_NEAR((total(grid, c) + total(points, c)) / before[c], 1, 1e-6) << lamps;
     }
   }
 }
@@ -74,10 +73,10 @@ TEST(BrightPoints, TakenAndLeftAreAll) {
 /// Lamps are taken where they lie, the largest first, and nothing else changes.
 TEST(BrightPoints, TheLargestAreTakenFromTheirPlaces) {
   for (const int always : {1, 7, 50}) {
-    Moments moments = noise(100), before = noise(100);
+    PointGrid grid = noise(100), before = noise(100);
     BrightRule rule;
-    rule.always = rule.most = always;
-    const BrightPoints points = take_bright_points(moments, rule, {});
+    rule.always = rule.maximum = always;
+    const BrightPoints points = take_bright_points(grid, rule, {});
     ASSERT_EQ(points.count(), always);
     double least = 1e30, left = 0;
     for (int i = 0; i < points.count(); ++i) {
@@ -90,17 +89,17 @@ TEST(BrightPoints, TheLargestAreTakenFromTheirPlaces) {
       double size = 0;
       for (int c = 0; c < kChannels; ++c) {
         const int x = static_cast<int>(std::lround(column)), y = static_cast<int>(std::lround(row));
-        EXPECT_EQ(points.mass[k * kChannels + static_cast<std::size_t>(c)], at(before, x, y, c));
-        EXPECT_EQ(at(moments, x, y, c), 0.0f);
+        EXPECT_EQ(points.weight[k * kChannels + static_cast<std::size_t>(c)], at(before, x, y, c));
+        EXPECT_EQ(at(grid, x, y, c), 0.0f);
         at(before, x, y, c) = 0;
         size = std::max(
-            size, std::fabs(static_cast<double>(points.mass[k * kChannels + static_cast<std::size_t>(c)])));
+            size, std::fabs(static_cast<double>(points.weight[k * kChannels + static_cast<std::size_t>(c)])));
       }
       least = std::min(least, size);
     }
-    for (std::size_t i = 0; i < moments.lanes.size(); ++i) {
-      EXPECT_EQ(moments.lanes.data()[i], before.lanes.data()[i]);
-      left = std::max(left, std::fabs(static_cast<double>(moments.lanes.data()[i])));
+    for (std::size_t i = 0; i < grid.lanes.size(); ++i) {
+      EXPECT_EQ(grid.lanes.data()[i], before.lanes.data()[i]);
+      left = std::max(left, std::fabs(static_cast<double>(grid.lanes.data()[i])));
     }
     EXPECT_GE(least, left);
   }
@@ -108,40 +107,40 @@ TEST(BrightPoints, TheLargestAreTakenFromTheirPlaces) {
 
 /// A box's three points have its centre, and its spread along the row: width²/12 (a Gauss rule is exact).
 TEST(BrightPoints, BoxesHaveTheirWidth) {
-  Moments moments = noise(0);
-  moments.boxes = true;
-  at(moments, 20, 21, 0) = 1e4f;
-  const BrightPoints points = take_bright_points(moments, {}, {});
-  double mass = 0, mean = 0, square = 0;
+  PointGrid grid = noise(0);
+  grid.boxes = true;
+  at(grid, 20, 21, 0) = 1e4f;
+  const BrightPoints points = take_bright_points(grid, {}, {});
+  double weight = 0, mean = 0, square = 0;
   for (int i = 0; i < points.count(); ++i) {
     const std::size_t k = static_cast<std::size_t>(i);
-    const double share = static_cast<double>(points.mass[k * kChannels]);
+    const double share = static_cast<double>(points.weight[k * kChannels]);
     const double longitude = std::atan2(static_cast<double>(points.x[k]), static_cast<double>(points.z[k]));
     const double column = (0.5 - longitude / (2 * kPi)) * kWidth - 20.5;
-    mass += share;
+    weight += share;
     mean += share * column;
     square += share * column * column;
   }
-  EXPECT_NEAR(mass, 1e4, 1e-2);
-  EXPECT_NEAR(mean / mass, 0, 1e-4);
-  EXPECT_NEAR(square / mass, 1.0 / 12, 1e-4);
+  EXPECT_NEAR(weight, 1e4, 1e-2);
+  EXPECT_NEAR(mean / weight, 0, 1e-4);
+  EXPECT_NEAR(square / weight, 1.0 / 12, 1e-4);
 }
 
 TEST(BrightPoints, NothingOfAnEvenOrBlackMapIsBright) {
-  Moments moments = noise(0);
-  EXPECT_EQ(take_bright_points(moments, {}, {}).count(), 0);
-  std::fill_n(moments.lanes.data(), moments.lanes.size(), 0.0f);
-  EXPECT_EQ(take_bright_points(moments, {}, {}).count(), 0);
+  PointGrid grid = noise(0);
+  EXPECT_EQ(take_bright_points(grid, {}, {}).count(), 0);
+  std::fill_n(grid.lanes.data(), grid.lanes.size(), 0.0f);
+  EXPECT_EQ(take_bright_points(grid, {}, {}).count(), 0);
 }
 
 /// Equal lamps too: the choice among them doesn't depend on the threads.
 TEST(BrightPoints, TheSameWhateverTheThreads) {
   const auto chosen = [] {
-    Moments moments = noise(0);
-    for (int i = 0; i < 300; ++i) at(moments, i * 7 % kWidth, i * 3 % kHeight, i % 2) = 1000;
-    const BrightPoints points = take_bright_points(moments, {}, {});
+    PointGrid grid = noise(0);
+    for (int i = 0; i < 300; ++i) at(grid, i * 7 % kWidth, i * 3 % kHeight, i % 2) = 1000;
+    const BrightPoints points = take_bright_points(grid, {}, {});
     std::vector<float> all = points.x;
-    for (const std::vector<float>* each : {&points.y, &points.z, &points.mass})
+    for (const std::vector<float>* each : {&points.y, &points.z, &points.weight})
       all.insert(all.end(), each->begin(), each->end());
     return all;
   };
@@ -152,10 +151,10 @@ TEST(BrightPoints, TheSameWhateverTheThreads) {
 }
 
 TEST(BrightPoints, AreCancelled) {
-  Moments moments = noise(3);
+  PointGrid grid = noise(3);
   Monitor monitor;
   monitor.cancelled = [] { return true; };
-  EXPECT_THROW(take_bright_points(moments, {}, monitor), Cancelled);
+  EXPECT_THROW(take_bright_points(grid, {}, monitor), Cancelled);
 }
 
 }  // namespace

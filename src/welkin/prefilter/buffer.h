@@ -1,9 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
-#include <memory>
-#include <new>
 
 #include "welkin/base/large_memory.h"
 
@@ -13,22 +10,15 @@ namespace welkin::prefilter {
 class Buffer {
  public:
   Buffer() = default;
-  explicit Buffer(std::size_t count) : count_(count) {
-    void* memory = std::aligned_alloc(64, (count * sizeof(float) + 127) / 64 * 64);
-    if (memory == nullptr) throw std::bad_alloc();
-    values_.reset(static_cast<float*>(memory));
-    prefer_large_pages(memory, count * sizeof(float));
-  }
+  explicit Buffer(std::size_t count)
+      : memory_(count * sizeof(float) + 64, LargeMemory::Contents::unset), count_(count) {}
 
-  float* data() { return values_.get(); }
-  const float* data() const { return values_.get(); }
+  float* data() { return reinterpret_cast<float*>(memory_.data()); }
+  const float* data() const { return reinterpret_cast<const float*>(memory_.data()); }
   std::size_t size() const { return count_; }
 
  private:
-  struct Free {
-    void operator()(float* p) const { std::free(p); }
-  };
-  std::unique_ptr<float[], Free> values_;
+  LargeMemory memory_;
   std::size_t count_ = 0;
 };
 

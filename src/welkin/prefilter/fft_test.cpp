@@ -87,8 +87,8 @@ TEST(Fft, OrdersAreTheFourierSums) {
           const Complex north = factor * order_of(rows.data(), length, lane, m);
           const Complex south = factor * order_of(rows.data(), length, lane + 8, m);
           const auto at = [&](int parity, int part) {
-            const int place = m * kStep + parity * kParts * 8 + (2 * kChannel + part) * 8 + lane;
-            return static_cast<double>(orders[static_cast<std::size_t>(place)]);
+            const int index = m * kStep + parity * kParts * 8 + (2 * kChannel + part) * 8 + lane;
+            return static_cast<double>(orders[static_cast<std::size_t>(index)]);
           };
           EXPECT_LT(std::abs(Complex(at(0, 0), at(0, 1)) - (north + south)), 2 * bound(length))
               << length << ' ' << m;

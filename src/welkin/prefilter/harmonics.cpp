@@ -1,3 +1,5 @@
+#include "welkin/prefilter/harmonics.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,14 +11,12 @@
 #include "welkin/prefilter/bright_points.h"
 #include "welkin/prefilter/kernels.h"
 #include "welkin/prefilter/level_texels.h"
-#include "welkin/prefilter/moments.h"
+#include "welkin/prefilter/plan.h"
 #include "welkin/prefilter/spline_grid.h"
-#include "welkin/prefilter/tables.h"
 
-namespace welkin {
+namespace welkin::prefilter {
 namespace {
 
-using namespace prefilter;
 using Tables = PrefilterPlan::Tables;
 
 /// Where the coefficients of order m begin, degrees m … degree one after the other.
@@ -28,10 +28,11 @@ std::size_t offset_of(int m, int degree) {
 /// The pipeline for up to three channels from `first`.
 class Harmonics {
  public:
-  Harmonics(const Tables& tables, Moments& moments, const BrightPoints& bright, int first, int channels,
+  Harmonics(const Tables& tables, PointGrid& points, const BrightPoints& bright, int first, int channels,
             std::vector<Level>& grids)
       : t_(tables),
-        moments_(moments),
+        a_(*tables.analysis),
+        points_(points),
         bright_(bright),
         first_(first),
         channels_(channels),
@@ -39,11 +40,16 @@ class Harmonics {
         grids_(grids) {}
 
   void run(const Monitor& monitor) {
+    // What is done with gives its memory to what comes next.
     transform_rows(part_of(monitor, 0, 0.1));
+    if (first_ + channels_ == points_.channels) points_.lanes = Buffer();
     analyse(part_of(monitor, 0.1, 0.4));
+    orders_ = Buffer();
     if (std::any_of(t_.harmonic.begin(), t_.harmonic.end(), [](const auto& level) { return level.all; }))
       add_bright();
     synthesise(part_of(monitor, 0.4, 0.85));
+    coefficients_ = Buffer();
+    all_coefficients_ = Buffer();
     transform_back(part_of(monitor, 0.85, 1));
   }
 
@@ -53,40 +59,40 @@ class Harmonics {
   }
 
   void transform_rows(const Monitor& monitor) {
-    const Latitudes& latitudes = t_.moments_latitudes[0];
-    orders_ = Buffer(order_size(latitudes) * static_cast<std::size_t>(t_.degree + 1));
+    const Latitudes& latitudes = a_.latitudes;
+    orders_ = Buffer(order_size(latitudes) * static_cast<std::size_t>(a_.degree + 1));
     parallel_for(
-        moments_.packs,
+        points_.packs,
         [&](int pack) {
-          Buffer work(static_cast<std::size_t>(moments_.width) * 16);
+          Buffer work(static_cast<std::size_t>(points_.width) * 16);
           for (int c = 0; c < channels_; ++c) {
             float* orders = orders_.data() + (static_cast<std::ptrdiff_t>(pack) * 2 * parts_ + 2 * c) * 8;
-            kernels().rows_to_orders(t_.moments_fft[0], moments_.at(pack, first_ + c), work.data(),
-                                     t_.order_factors.data(), t_.degree, moments_.packs, parts_, orders);
+            kernels().rows_to_orders(a_.fft, points_.at(pack, first_ + c), work.data(), a_.factors.data(),
+                                     a_.degree, points_.packs, parts_, orders);
           }
         },
         monitor);
   }
 
   void analyse(const Monitor& monitor) {
-    const Latitudes& latitudes = t_.moments_latitudes[0];
-    coefficients_ = Buffer(offset_of(t_.degree + 1, t_.degree) * static_cast<std::size_t>(parts_));
+    const Latitudes& latitudes = a_.latitudes;
+    coefficients_ = Buffer(offset_of(a_.degree + 1, a_.degree) * static_cast<std::size_t>(parts_));
     parallel_for(
-        t_.degree + 1,
+        a_.degree + 1,
         [&](int m) {
-          Buffer work(static_cast<std::size_t>((t_.degree + 2) * parts_ * 8));
+          Buffer work(static_cast<std::size_t>((a_.degree + 2) * parts_ * 8));
           kernels().analyse[channels_ - 1](
-              latitudes, t_.recurrences[static_cast<std::size_t>(m)], t_.degree,
+              latitudes, a_.recurrences[static_cast<std::size_t>(m)], a_.degree,
               orders_.data() + order_size(latitudes) * static_cast<std::size_t>(m), work.data(),
-              coefficients_.data() + offset_of(m, t_.degree) * static_cast<std::size_t>(parts_));
+              coefficients_.data() + offset_of(m, a_.degree) * static_cast<std::size_t>(parts_));
         },
         monitor);
   }
 
-  /// What far parts of narrow lobes and smooth lobes need: the coefficients of all masses, the bright ones
+  /// What far parts of narrow lobes and smooth lobes need: the coefficients of all points, the bright ones
   /// included.
   void add_bright() {
-    const std::size_t size = offset_of(t_.degree + 1, t_.degree) * static_cast<std::size_t>(parts_);
+    const std::size_t size = offset_of(a_.degree + 1, a_.degree) * static_cast<std::size_t>(parts_);
     all_coefficients_ = Buffer(size);
     std::memcpy(all_coefficients_.data(), coefficients_.data(), size * sizeof(float));
     if (bright_.count() == 0) return;
@@ -97,10 +103,10 @@ class Harmonics {
       cosines.push_back(std::fabs(static_cast<double>(bright_.y[i])));
       const double u =
           0.5 - std::atan2(static_cast<double>(bright_.x[i]), static_cast<double>(bright_.z[i])) / (2 * kPi);
-      angles.push_back(2 * kPi * (u - 0.5 / moments_.width));
+      angles.push_back(2 * kPi * (u - 0.5 / points_.width));
     }
-    const Latitudes latitudes(cosines, t_.degree);
-    parallel_for(t_.degree + 1, [&](int m) {
+    const Latitudes latitudes(cosines, a_.degree);
+    parallel_for(a_.degree + 1, [&](int m) {
       std::vector<float> rows(order_size(latitudes), 0.0f);
       for (std::size_t i = 0; i < count; ++i) {
         const float re = static_cast<float>(std::cos(m * angles[i])),
@@ -109,20 +115,20 @@ class Harmonics {
         float* even = rows.data() + i / 8 * 16 * static_cast<std::size_t>(parts_) + i % 8;
         float* odd = even + 8 * parts_;
         for (int c = 0; c < channels_; ++c) {
-          const float mass = bright_.mass[i * static_cast<std::size_t>(bright_.channels) +
-                                          static_cast<std::size_t>(first_ + c)];
-          even[16 * c] = mass * re;
-          even[16 * c + 8] = mass * im;
-          odd[16 * c] = side * mass * re;
-          odd[16 * c + 8] = side * mass * im;
+          const float weight = bright_.weight[i * static_cast<std::size_t>(bright_.channels) +
+                                              static_cast<std::size_t>(first_ + c)];
+          even[16 * c] = weight * re;
+          even[16 * c + 8] = weight * im;
+          odd[16 * c] = side * weight * re;
+          odd[16 * c + 8] = side * weight * im;
         }
       }
-      Buffer work(static_cast<std::size_t>((t_.degree + 2) * parts_ * 8));
-      const std::size_t terms = static_cast<std::size_t>((t_.degree - m + 1) * parts_);
+      Buffer work(static_cast<std::size_t>((a_.degree + 2) * parts_ * 8));
+      const std::size_t terms = static_cast<std::size_t>((a_.degree - m + 1) * parts_);
       std::vector<float> sums(terms);
-      kernels().analyse[channels_ - 1](latitudes, t_.recurrences[static_cast<std::size_t>(m)], t_.degree,
+      kernels().analyse[channels_ - 1](latitudes, a_.recurrences[static_cast<std::size_t>(m)], a_.degree,
                                        rows.data(), work.data(), sums.data());
-      float* to = all_coefficients_.data() + offset_of(m, t_.degree) * static_cast<std::size_t>(parts_);
+      float* to = all_coefficients_.data() + offset_of(m, a_.degree) * static_cast<std::size_t>(parts_);
       for (std::size_t k = 0; k < terms; ++k) to[k] += sums[k];
     });
   }
@@ -151,25 +157,29 @@ class Harmonics {
   }
 
   void synthesise_order(const HarmonicLevel& level, const Buffer& coefficients, int m, float* orders) {
-    const Recurrence& r = t_.recurrences[static_cast<std::size_t>(m)];
-    const float* a = coefficients.data() + offset_of(m, t_.degree) * static_cast<std::size_t>(parts_);
-    const float cosine = level.turn[static_cast<std::size_t>(2 * m)];
-    const float sine = level.turn[static_cast<std::size_t>(2 * m + 1)];
+    const Recurrence& r = a_.recurrences[static_cast<std::size_t>(m)];
+    const float* a = coefficients.data() + offset_of(m, a_.degree) * static_cast<std::size_t>(parts_);
+    const float cosine = level.phases[static_cast<std::size_t>(2 * m)];
+    const float sine = level.phases[static_cast<std::size_t>(2 * m + 1)];
     std::vector<float> scaled(static_cast<std::size_t>((level.degree - m + 1) * parts_));
     float* to = scaled.data();
     for (int l = m; l <= level.degree; ++l, a += parts_, to += parts_) {
       const float factor = level.zonal[static_cast<std::size_t>(l)] *
                            static_cast<float>(r.scale[static_cast<std::size_t>(l - m)]);
-      const float turn_re = factor * cosine, turn_im = factor * sine;
+      const float phase_re = factor * cosine, phase_im = factor * sine;
       for (int p = 0; p < parts_; p += 2) {
-        to[p] = a[p] * turn_re - a[p + 1] * turn_im;
-        to[p + 1] = a[p] * turn_im + a[p + 1] * turn_re;
+        to[p] = a[p] * phase_re - a[p + 1] * phase_im;
+        to[p + 1] = a[p] * phase_im + a[p + 1] * phase_re;
       }
     }
     kernels().synthesise[channels_ - 1](level.latitudes, r, level.degree, scaled.data(), orders);
   }
 
   void transform_back(const Monitor& monitor) {
+    if (grids_.empty()) {
+      for (const HarmonicLevel& level : t_.harmonic)
+        grids_.emplace_back(1, level.grid.width, level.grid.height, points_.channels, PixelContents::unset);
+    }
     struct Item {
       std::size_t level;
       int pack;
@@ -210,7 +220,8 @@ class Harmonics {
   }
 
   const Tables& t_;
-  Moments& moments_;
+  const HarmonicAnalysis& a_;
+  PointGrid& points_;
   const BrightPoints& bright_;
   int first_, channels_, parts_;
   std::vector<Level>& grids_;
@@ -233,20 +244,60 @@ bool has_negative(const Map& map) {
 
 }  // namespace
 
-std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector<Map>& results,
-                                 const Monitor& monitor) {
-  Moments moments = moments_of(source, t.moments[0], part_of(monitor, 0, 0.2));
-  const BrightPoints bright = take_bright_points(moments, {}, part_of(monitor, 0.2, 0.22));
+std::vector<float> order_factors(const PointGridPlan& points, int last) {
+  std::vector<float> factors;
+  for (int m = 0; m <= last; ++m) {
+    const double x = kPi * m / points.width;
+    const bool box = points.way == PointGridPlan::Way::spread_boxes && m > 0;
+    factors.push_back(static_cast<float>(box ? std::sin(x) / x : 1.0));
+  }
+  return factors;
+}
+
+std::vector<float> phases(int last, int grid_width, int points_width) {
+  std::vector<float> phase_factors;
+  for (int m = 0; m <= last; ++m) {
+    const double shift = kPi * m * (1.0 / grid_width - 1.0 / points_width);
+    const double spline = 6 * 3 / (2 + std::cos(2 * kPi * m / grid_width));
+    phase_factors.push_back(static_cast<float>(spline * std::cos(shift)));
+    phase_factors.push_back(static_cast<float>(spline * std::sin(shift)));
+  }
+  return phase_factors;
+}
+
+HarmonicAnalysis::HarmonicAnalysis(const PrefilterShape& source, int most)
+    : degree(most),
+      points(source.parameterization, source.size, degree),
+      fft(points.width),
+      latitudes(points.height, degree),
+      factors(order_factors(points, degree)) {
+  for (int m = 0; m <= degree; ++m) recurrences.emplace_back(m, degree);
+}
+
+HarmonicLevel::HarmonicLevel(const WidenedLobe& widened, const std::vector<double>& coefficients, int number,
+                             int points_width)
+    : index(number),
+      degree(static_cast<int>(coefficients.size()) - 1),
+      grid{fft_length(static_cast<int>(2.2 * degree) + 8), 0},
+      fft(grid.width),
+      latitudes(grid.width / 2, degree),
+      zonal(coefficients.begin(), coefficients.end()),
+      phases(prefilter::phases(degree, grid.width, points_width)),
+      lobe(widened.lobe),
+      all(widened.smooth),
+      scale(1 / widened.lobe.integral()) {
+  grid.height = grid.width / 2;
+}
+
+HarmonicResults run_harmonics(const Tables& t, const Map& source, const Monitor& monitor) {
+  PointGrid points = make_point_grid(source, t.analysis->points, part_of(monitor, 0, 0.2));
+  const BrightPoints bright = take_bright_points(points, {}, part_of(monitor, 0.2, 0.22));
 
   std::vector<Level> grids;
-  for (const HarmonicLevel& level : t.harmonic) {
-    grids.emplace_back(1, level.grid.width, level.grid.height, source.channels());
-  }
   for (int first = 0; first < source.channels(); first += 3) {
     const double share = 0.28 / source.channels(), from = 0.22 + first * share;
     const int channels = std::min(3, source.channels() - first);
-    Harmonics(t, moments, bright, first, channels, grids)
-        .run(part_of(monitor, from, from + channels * share));
+    Harmonics(t, points, bright, first, channels, grids).run(part_of(monitor, from, from + channels * share));
   }
 
   std::vector<std::vector<Level>> near_grids;
@@ -261,11 +312,12 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
 
   to_splines(grids, part_of(monitor, 0.7, 0.72));
 
-  // Sums of light that is never negative are held there. Whether it is, is looked up when it first matters.
-  std::once_flag looked;
+  // Sums of light that is never negative are clamped to that. Whether it is, is found out when it first
+  // matters.
+  std::once_flag once;
   bool negative = false;
-  const std::function<bool()> hold_positive = [&] {
-    std::call_once(looked, [&] { negative = has_negative(source); });
+  const std::function<bool()> is_nonnegative = [&] {
+    std::call_once(once, [&] { negative = has_negative(source); });
     return !negative;
   };
 
@@ -273,12 +325,15 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
     std::size_t level;
     int chart, row, rows;
   };
+  HarmonicResults results;
+  for (const HarmonicLevel& level : t.harmonic)
+    results.levels.push_back(t.result(static_cast<std::size_t>(level.index), source));
   std::vector<LevelTexels> texels;
   std::vector<Band> bands;
   for (std::size_t i = 0; i < t.harmonic.size(); ++i) {
-    Map& map = results[static_cast<std::size_t>(t.harmonic[i].index)];
+    Map& map = results.levels[i];
     const Matrix3 to_source = source.orientation * transpose(map.orientation);
-    texels.emplace_back(t.harmonic[i], grids[i], near[i], bright, to_source, hold_positive, map);
+    texels.emplace_back(t.harmonic[i], grids[i], near[i], bright, to_source, is_nonnegative, map);
     const int rows = std::max(1, 2048 / map.width());
     for (int chart = 0; chart < map.charts(); ++chart) {
       for (int y = 0; y < map.height(); y += rows)
@@ -292,7 +347,8 @@ std::optional<Map> run_harmonics(const Tables& t, const Map& source, std::vector
         texels[band.level].rows(band.chart, band.row, band.rows);
       },
       part_of(monitor, 0.72, 1));
-  return std::move(moments.reduced);
+  results.reduced = std::move(points.reduced);
+  return results;
 }
 
-}  // namespace welkin
+}  // namespace welkin::prefilter

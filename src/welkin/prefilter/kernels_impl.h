@@ -25,10 +25,10 @@ struct Sampled {
   template <class T>
   Pack weight(const T& s) const {
     const Pack chord = xsimd::sqrt(Pack(2.0f) * s);
-    const Pack place =
+    const Pack position =
         xsimd::min(scale * chord / (chord + core), Pack(static_cast<float>(SampledLobe::kSteps)));
-    const Ints index = xsimd::to_int(place);
-    const Pack part = place - xsimd::to_float(index);
+    const Ints index = xsimd::to_int(position);
+    const Pack part = position - xsimd::to_float(index);
     const Pack below = Pack::gather(values, index), above = Pack::gather(values + 1, index);
     return xsimd::fma(part, above - below, below);
   }
@@ -38,10 +38,12 @@ template <class Arch>
 struct KernelsOf {
   using V = Lanes<float, Arch>;
 
-  /// Columns [begin, end) of a row of masses, channels interleaved, before they are spread along the row.
+  /// Columns [begin, end) of a row of points, channels interleaved, before they are spread along the row.
   static void mix_rows(const SpreadRows& r, int row, int begin, int end, float* out) {
-    const int n = r.channels, half = r.width / 2 * n;
-    const RowSpread::Tap *first = r.taps + r.first[row], *last = r.taps + r.first[row + 1];
+    const int n = r.picture.channels, half = r.picture.width / 2 * n;
+    const RowSpread::Tap* taps = r.down.taps.data();
+    const RowSpread::Tap *first = taps + r.down.first.data()[row],
+                         *last = taps + r.down.first.data()[row + 1];
     for (int start = begin * n; start < end * n;) {
       const int limit = start < half ? half : 2 * half;
       const int stop = end * n < limit ? end * n : limit;
@@ -49,7 +51,8 @@ struct KernelsOf {
       for (int i = start; i < stop; i += 32) {
         V sum[4] = {V(0.0f), V(0.0f), V(0.0f), V(0.0f)};
         for (const RowSpread::Tap* tap = first; tap != last; ++tap) {
-          const float* from = r.texels + tap->row * r.row_stride + (tap->opposite ? across : 0) + i;
+          const float* from =
+              r.picture.data + tap->row * r.picture.row_stride + (tap->opposite ? across : 0) + i;
           const V weight(tap->weight);
           for (int k = 0; k < 4; ++k) sum[k] = V::fma(weight, V::load(from + 8 * k), sum[k]);
         }
@@ -60,30 +63,30 @@ struct KernelsOf {
   }
 
   static void spread_rows(const SpreadRows& r, int pack, float* lanes, float* work) {
-    const int kChunk =
-        r.columns > 128 ? r.columns : 128;  // columns of the picture; a power of two, as r.columns
-    const int n = r.channels, half = r.height / 2;
+    const int columns = r.along.columns, reach = r.along.reach, width = r.picture.width;
+    const int kChunk = columns > 128 ? columns : 128;  // columns of the picture; a power of two, as `columns`
+    const int n = r.picture.channels, height = static_cast<int>(r.down.first.size()) - 1, half = height / 2;
     const std::ptrdiff_t row_length = kChunk * n + 64;
     // The rows as they are, with what lies past either end: [channel][column][16].
     float* rows = work;
-    const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(r.width + 2 * r.reach) * 16;
+    const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(width + 2 * reach) * 16;
     float* mixed = work + plane * n;
-    for (int begin = 0; begin < r.width; begin += kChunk) {
-      const int end = begin + kChunk < r.width ? begin + kChunk : r.width;
+    for (int begin = 0; begin < width; begin += kChunk) {
+      const int end = begin + kChunk < width ? begin + kChunk : width;
       for (int lane = 0; lane < 16; ++lane) {
         const int north = pack * 8 + lane % 8;
         float* row = mixed + lane * row_length;
         if (north >= half) {
           std::memset(row, 0, static_cast<std::size_t>(row_length) * sizeof(float));
         } else {
-          const int at = lane < 8 ? north : r.height - 1 - north;
+          const int at = lane < 8 ? north : height - 1 - north;
           mix_rows(r, at, begin, end, row);
-          if (r.reduced != nullptr) reduce(r, at, begin, end, mixed + 16 * row_length);
+          if (r.reduced.data != nullptr) reduce(r, at, begin, end, mixed + 16 * row_length);
         }
       }
       for (int x = begin; x < end; ++x) {
         for (int c = 0; c < n; ++c) {
-          float* to = rows + c * plane + static_cast<std::ptrdiff_t>(x + r.reach) * 16;
+          float* to = rows + c * plane + static_cast<std::ptrdiff_t>(x + reach) * 16;
           const float* from = mixed + (x - begin) * n + c;
           for (int lane = 0; lane < 16; ++lane) to[lane] = from[lane * row_length];
         }
@@ -91,27 +94,28 @@ struct KernelsOf {
     }
     for (int c = 0; c < n; ++c) {
       float* at = rows + c * plane;
-      const std::size_t bytes = static_cast<std::size_t>(r.reach) * 16 * sizeof(float);
-      std::memcpy(at, at + static_cast<std::ptrdiff_t>(r.width) * 16, bytes);
-      std::memcpy(at + static_cast<std::ptrdiff_t>(r.width + r.reach) * 16,
-                  at + static_cast<std::ptrdiff_t>(r.reach) * 16, bytes);
-      spread_columns(r, at, lanes + static_cast<std::ptrdiff_t>(c) * (r.width / r.columns) * 16);
+      const std::size_t bytes = static_cast<std::size_t>(reach) * 16 * sizeof(float);
+      std::memcpy(at, at + static_cast<std::ptrdiff_t>(width) * 16, bytes);
+      std::memcpy(at + static_cast<std::ptrdiff_t>(width + reach) * 16,
+                  at + static_cast<std::ptrdiff_t>(reach) * 16, bytes);
+      spread_columns(r, at, lanes + static_cast<std::ptrdiff_t>(c) * (width / columns) * 16);
     }
   }
 
-  /// The mean over the solid angle of the boxes of texels that a row of masses stands for.
+  /// The mean over the solid angle of the boxes of texels that a row of points stands for.
   static void reduce(const SpreadRows& r, int row, int begin, int end, float* mixed) {
-    const int n = r.channels, down = r.picture_height / r.height, across = r.columns;
+    const int n = r.picture.channels, across = r.along.columns;
+    const int down = r.picture.height / (static_cast<int>(r.down.first.size()) - 1);
     for (int i = begin * n; i < end * n; i += 32) {
       V sum[4] = {V(0.0f), V(0.0f), V(0.0f), V(0.0f)};
       for (int k = 0; k < down; ++k) {
-        const float* from = r.texels + (row * down + k) * r.row_stride + i;
-        const V weight(r.shares[row * down + k]);
+        const float* from = r.picture.data + (row * down + k) * r.picture.row_stride + i;
+        const V weight(r.shares.data()[row * down + k]);
         for (int part = 0; part < 4; ++part) sum[part] = V::fma(weight, V::load(from + 8 * part), sum[part]);
       }
       for (int part = 0; part < 4; ++part) sum[part].store(mixed + (i - begin * n) + 8 * part);
     }
-    float* to = r.reduced + row * r.reduced_stride + static_cast<std::ptrdiff_t>(begin / across) * n;
+    float* to = r.reduced.data + row * r.reduced.row_stride + static_cast<std::ptrdiff_t>(begin / across) * n;
     for (int x = 0; x < (end - begin) / across; ++x, to += n, mixed += across * n) {
       for (int c = 0; c < n; ++c) {
         float sum = 0;
@@ -121,13 +125,14 @@ struct KernelsOf {
     }
   }
 
-  /// Along the rows: each mass is the sum of the texels around it times `along`.
+  /// Along the rows: each weight is the sum of the texels around it times `along`.
   static void spread_columns(const SpreadRows& r, const float* rows, float* lanes) {
-    const int width = r.width / r.columns;
-    for (int x = 0; x < width; ++x, rows += static_cast<std::ptrdiff_t>(r.columns) * 16, lanes += 16) {
+    const int width = r.picture.width / r.along.columns, taps = static_cast<int>(r.along.along.size());
+    const float* along = r.along.along.data();
+    for (int x = 0; x < width; ++x, rows += static_cast<std::ptrdiff_t>(r.along.columns) * 16, lanes += 16) {
       V low(0.0f), high(0.0f);
-      for (int tap = 0; tap < r.along_count; ++tap) {
-        const V weight(r.along[tap]);
+      for (int tap = 0; tap < taps; ++tap) {
+        const V weight(along[tap]);
         low = V::fma(weight, V::load(rows + tap * 16), low);
         high = V::fma(weight, V::load(rows + tap * 16 + 8), high);
       }
@@ -143,9 +148,9 @@ struct KernelsOf {
     const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(packs) * 2 * parts * 8;
     for (int m = 0; m <= degree; ++m, orders += step) {
       // Beyond the row's length orders come again.
-      const int place = m % plan.length;
-      const float* a = f + static_cast<std::ptrdiff_t>(place) * 16;
-      const float* b = f + static_cast<std::ptrdiff_t>(place == 0 ? 0 : plan.length - place) * 16;
+      const int position = m % plan.length;
+      const float* a = f + static_cast<std::ptrdiff_t>(position) * 16;
+      const float* b = f + static_cast<std::ptrdiff_t>(position == 0 ? 0 : plan.length - position) * 16;
       const V half(0.5f * factors[m]);
       const V are = V::load(a), aim = V::load(a + 8), bre = V::load(b), bim = V::load(b + 8);
       const V north_re = half * (are + bre), north_im = half * (aim - bim);

@@ -23,7 +23,7 @@ struct Latitudes {
   /// Rows at colatitudes (i + ½)π/rows; `rows` is even. `degree`: the largest that will be asked for.
   Latitudes(int rows, int degree);
 
-  /// At any places: cosines of colatitudes, 0 … 1.
+  /// At any latitudes: cosines of colatitudes, 0 … 1.
   Latitudes(const std::vector<double>& cosines, int degree);
 
   int count;  ///< rows / 2

@@ -43,7 +43,7 @@ struct Legendre {
     }
     int index = parity;
     while (largest < kThreshold && index <= last) {
-      // Four steps to a look at the size: it grows by less than 1e10 in these.
+      // Four steps to an evaluation of the size: it grows by less than 1e10 in these.
       for (int step = 0; step < 4 && index <= last; ++step, index += 2) {
         const D factor(r.factor[static_cast<std::size_t>(index)]),
             center(r.center[static_cast<std::size_t>(index)]);

@@ -121,10 +121,10 @@ TEST(Legendre, AnalysisFindsWhatSynthesisMade) {
           std::vector<float> work(static_cast<std::size_t>(degree + 2) * 16), out(work.size() / 8);
           table->analyse[0](latitudes, r, degree, data.data(), work.data(), out.data());
           for (int found = m; found <= degree; ++found) {
-            const std::size_t place = static_cast<std::size_t>(found - m) * 2;
-            EXPECT_NEAR(static_cast<double>(out[place]), found == l ? 1 : 0, 4e-7 * (degree + 3))
+            const std::size_t index = static_cast<std::size_t>(found - m) * 2;
+            EXPECT_NEAR(static_cast<double>(out[index]), found == l ? 1 : 0, 4e-7 * (degree + 3))
                 << degree << ' ' << m << ' ' << l << ' ' << found;
-            EXPECT_EQ(out[place + 1], 0.0f);
+            EXPECT_EQ(out[index + 1], 0.0f);
           }
         }
       }

@@ -5,10 +5,7 @@
 
 #include "welkin/prefilter/kernels.h"
 
-namespace welkin {
-
-using namespace prefilter;
-
+namespace welkin::prefilter {
 namespace {
 
 constexpr std::size_t kBatch = 256;
@@ -30,7 +27,7 @@ void LevelTexels::rows(int chart, int from, int rows) const {
       v[i] = (static_cast<float>(from + k / width) + 0.5f) / static_cast<float>(height);
     }
     p.kernels().to_sphere(p.self(), chart, u, v, x, y, z, count);
-    if (turned_) multiply(to_source_, x, y, z, sphere::padded(count));
+    if (rotated_) multiply(to_source_, x, y, z, sphere::padded(count));
     grid_shape_.kernels().from_sphere(grid_shape_.self(), x, y, z, at_chart, at_u, at_v, count);
     fetch_(view_, at_chart, at_u, at_v, values.data(), count);
     if (near_ != nullptr) {
@@ -39,9 +36,10 @@ void LevelTexels::rows(int chart, int from, int rows) const {
     } else {
       add_bright(x, y, z, values.data(), count);
     }
-    float least = 0;
-    for (std::size_t i = 0; i < count * static_cast<std::size_t>(n); ++i) least = std::min(least, values[i]);
-    if (least < 0 && hold_positive_()) {
+    float minimum = 0;
+    for (std::size_t i = 0; i < count * static_cast<std::size_t>(n); ++i)
+      minimum = std::min(minimum, values[i]);
+    if (minimum < 0 && is_nonnegative_()) {
       for (std::size_t i = 0; i < count * static_cast<std::size_t>(n); ++i)
         values[i] = std::max(values[i], 0.0f);
     }
@@ -61,12 +59,12 @@ void LevelTexels::add_bright(const float* x, const float* y, const float* z, flo
                              std::size_t count) const {
   if (level_.all || bright_.count() == 0) return;
   const lobe::Points points{bright_.x.data(), bright_.y.data(), bright_.z.data(),
-                            masses_.data(),   bright_.count(),  bright_.channels};
-  if (level_.sampled.empty()) {
+                            weights_.data(),  bright_.count(),  bright_.channels};
+  if (!level_.sampled) {
     level_.lobe.point_sums()(level_.lobe.self(), points, x, y, z, values, count);
   } else {
-    kernels().sampled_sums(&level_.sampled[0], points, x, y, z, values, count);
+    kernels().sampled_sums(&*level_.sampled, points, x, y, z, values, count);
   }
 }
 
-}  // namespace welkin
+}  // namespace welkin::prefilter

@@ -5,17 +5,17 @@
 
 #include "welkin/filter/fetch.h"
 #include "welkin/prefilter/bright_points.h"
-#include "welkin/prefilter/tables.h"
+#include "welkin/prefilter/harmonics.h"
 
-namespace welkin {
+namespace welkin::prefilter {
 
 /// Level texels: the grid's spline, and the bright points' exact sums.
 class LevelTexels {
  public:
-  /// `near`: the grid of a near part, or null.
-  LevelTexels(const HarmonicLevel& level, const Level& grid, const Level* near,
-              const prefilter::BrightPoints& bright, const Matrix3& to_source,
-              const std::function<bool()>& hold_positive, Map& result)
+  /// `near`: the grid of a near part, or null. `is_nonnegative`: whether the source is, so that ringing below
+  /// 0 is clamped; asked only where there is some.
+  LevelTexels(const HarmonicLevel& level, const Level& grid, const Level* near, const BrightPoints& bright,
+              const Matrix3& to_source, const std::function<bool()>& is_nonnegative, Map& result)
       : level_(level),
         view_(view_of(grid)),
         near_(near),
@@ -23,11 +23,11 @@ class LevelTexels {
         bright_(bright),
         grid_shape_(sphere::AnyParameterization::make("latlong")),
         to_source_(to_source),
-        turned_(!(to_source == Matrix3{})),
-        hold_positive_(hold_positive),
+        rotated_(!(to_source == Matrix3{})),
+        is_nonnegative_(is_nonnegative),
         result_(result),
-        masses_(bright.mass) {
-    for (float& mass : masses_) mass *= static_cast<float>(level.scale);
+        weights_(bright.weight) {
+    for (float& weight : weights_) weight *= static_cast<float>(level.scale);
   }
 
   /// Fills these rows of a chart.
@@ -40,13 +40,13 @@ class LevelTexels {
   LevelView view_;
   const Level* near_;
   Fetch fetch_;
-  const prefilter::BrightPoints& bright_;
+  const BrightPoints& bright_;
   sphere::AnyParameterization grid_shape_;
   Matrix3 to_source_;
-  bool turned_;  ///< to_source_ is not the identity
-  const std::function<bool()>& hold_positive_;
+  bool rotated_;  ///< to_source_ is not the identity
+  const std::function<bool()>& is_nonnegative_;
   Map& result_;
-  std::vector<float> masses_;  ///< the bright points', times the lobe's scale
+  std::vector<float> weights_;  ///< the bright points', times the lobe's scale
 };
 
-}  // namespace welkin
+}  // namespace welkin::prefilter

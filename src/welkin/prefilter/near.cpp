@@ -1,22 +1,22 @@
+#include "welkin/prefilter/near.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
 
 #include "welkin/base/parallel.h"
+#include "welkin/prefilter/harmonics.h"
 #include "welkin/prefilter/kernels.h"
 #include "welkin/prefilter/spline_grid.h"
-#include "welkin/prefilter/tables.h"
 
-namespace welkin {
+namespace welkin::prefilter {
 namespace {
-
-using namespace prefilter;
 
 /// Packs [first, end) of the result's rows, all steps in one piece of work, which stays in the cache.
 class Band {
  public:
-  Band(const NearGroup& group, const Moments& moments, int first, int end)
-      : group_(group), moments_(moments), first_(first), end_(end) {
+  Band(const NearGroup& group, const PointGrid& points, int first, int end)
+      : group_(group), points_(points), first_(first), end_(end) {
     for (const NearLevel& level : group.levels) {
       last_ = std::max(last_, level.field.last);
       reach_ = std::max(reach_, level.field.reach);
@@ -31,20 +31,20 @@ class Band {
   }
 
  private:
-  /// The orders of the masses of these rows and of those that they reach: [order][part][half][row].
+  /// The orders of the points of these rows and of those that they reach: [order][part][half][row].
   void take_orders(int channel, int channels) {
     const int rows = (end_ - first_ + 2 * margin_) * 8, beside = margin_ * 8;
     orders_ = {nullptr, 4 * static_cast<std::ptrdiff_t>(rows) * channels,
                2 * static_cast<std::ptrdiff_t>(rows), rows};
     values_ = Buffer(static_cast<std::size_t>(orders_.order) * static_cast<std::size_t>(last_ + 1));
     orders_.values = values_.data() + beside;
-    const std::size_t size = static_cast<std::size_t>(moments_.width) * 16;
+    const std::size_t size = static_cast<std::size_t>(points_.width) * 16;
     Buffer lanes(2 * size);
-    for (int pack = std::max(0, first_ - margin_); pack < std::min(end_ + margin_, moments_.packs); ++pack) {
+    for (int pack = std::max(0, first_ - margin_); pack < std::min(end_ + margin_, points_.packs); ++pack) {
       for (int c = 0; c < channels; ++c) {
         NearOrders to = orders_;
         to.values += (pack - first_) * 8 + 2 * c * orders_.part;
-        std::memcpy(lanes.data(), moments_.at(pack, channel + c), size * sizeof(float));
+        std::memcpy(lanes.data(), points_.at(pack, channel + c), size * sizeof(float));
         kernels().rows_to_near(group_.fft, lanes.data(), lanes.data() + size, group_.factors.data(), last_,
                                to);
       }
@@ -55,7 +55,7 @@ class Band {
         float* row = orders_.values + m * orders_.order + part * orders_.half;
         float* other = part % 2 == 0 ? row + orders_.half : row - orders_.half;
         for (int pack = first_ - margin_; pack < 0; ++pack) std::fill_n(row + (pack - first_) * 8, 8, 0.0f);
-        const std::ptrdiff_t equator = (moments_.packs - first_) * 8;
+        const std::ptrdiff_t equator = (points_.packs - first_) * 8;
         for (std::ptrdiff_t past = 0; equator + past < (end_ - first_) * 8 + beside; ++past) {
           row[equator + past] = other[equator - 1 - past];
         }
@@ -73,14 +73,14 @@ class Band {
         std::fill(at(pack, c) + (last + 1) * 16, at(pack, c) + (level.grid.width - last) * 16, 0.0f);
       }
     }
-    // One order of all packs after the other: their rows of masses overlap.
+    // One order of all packs after the other: their rows of points overlap.
     for (int m = 0; m <= level.field.last; ++m) {
       for (int pack = first_; pack < end_; ++pack) {
         if (m > level.field.packs[static_cast<std::size_t>(pack)].last) continue;
-        NearOrders masses = orders_;
-        masses.values += (pack - first_) * 8;
-        kernels().near[channels - 1](level.field, pack, m, masses,
-                                     {at(pack, 0), size, level.grid.width, level.turn.data()});
+        NearOrders points = orders_;
+        points.values += (pack - first_) * 8;
+        kernels().near[channels - 1](level.field, pack, m, points,
+                                     {at(pack, 0), size, level.grid.width, level.phases.data()});
       }
     }
     for (int pack = first_; pack < end_; ++pack) {
@@ -98,7 +98,7 @@ class Band {
   }
 
   const NearGroup& group_;
-  const Moments& moments_;
+  const PointGrid& points_;
   int first_, end_;
   int last_ = 0, reach_ = 0, margin_ = 0;  ///< the margin in packs
   Buffer values_;
@@ -107,19 +107,32 @@ class Band {
 
 }  // namespace
 
+NearLevel::NearLevel(const WidenedLobe& widened, std::size_t number, int rows, int degree, double tolerance,
+                     int points_width)
+    : harmonic(number),
+      field(widened.lobe, widened.zonal, rows, degree, tolerance),
+      grid{fft_length(std::max(2 * rows, 2 * field.last + 4)), rows},
+      fft(grid.width),
+      phases(prefilter::phases(field.last, grid.width, points_width)) {}
+
+NearGroup::NearGroup(const PrefilterShape& source, int rows, int last_order)
+    : points(PointGridPlan::with_rows(source.parameterization, source.size, rows)),
+      fft(points.width),
+      factors(order_factors(points, last_order)) {}
+
 std::vector<Level> run_near(const NearGroup& group, const Map& source, const Monitor& monitor) {
-  const Moments moments = moments_of(source, group.moments, part_of(monitor, 0, 0.2));
+  const PointGrid points = make_point_grid(source, group.points, part_of(monitor, 0, 0.2));
   std::vector<Level> grids;
   for (const NearLevel& level : group.levels) {
-    grids.emplace_back(1, level.grid.width, level.grid.height, source.channels());
+    grids.emplace_back(1, level.grid.width, level.grid.height, source.channels(), PixelContents::unset);
   }
   constexpr int kPacks = 8;
-  const int bands = (moments.packs + kPacks - 1) / kPacks, groups = (source.channels() + 2) / 3;
+  const int bands = (points.packs + kPacks - 1) / kPacks, groups = (source.channels() + 2) / 3;
   parallel_for(
       bands * groups,
       [&](int i) {
         const int first = i / groups * kPacks, channel = i % groups * 3;
-        Band(group, moments, first, std::min(first + kPacks, moments.packs))
+        Band(group, points, first, std::min(first + kPacks, points.packs))
             .run(channel, std::min(3, source.channels() - channel), grids);
       },
       part_of(monitor, 0.2, 0.9));
@@ -127,4 +140,4 @@ std::vector<Level> run_near(const NearGroup& group, const Map& source, const Mon
   return grids;
 }
 
-}  // namespace welkin
+}  // namespace welkin::prefilter

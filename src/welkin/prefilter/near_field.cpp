@@ -15,30 +15,30 @@
 namespace welkin::prefilter {
 namespace {
 
-/// Places and weights of Gauss's rule of 16 points in each of `panels` parts of 0 … end.
+/// Positions and weights of Gauss's rule of 16 points in each of `panels` parts of 0 … end.
 struct Nodes {
   Nodes(double end, int panels) {
     static const QuadratureRule rule = gauss_legendre(16);
     const double half = end / (2 * panels);
     for (int panel = 0; panel < panels; ++panel) {
       for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-        place.push_back((2 * panel + 1 + rule.nodes[i]) * half);
+        position.push_back((2 * panel + 1 + rule.nodes[i]) * half);
         weight.push_back(rule.weights[i] * half);
       }
     }
   }
-  std::vector<double> place, weight;
+  std::vector<double> position, weight;
 };
 
-/// Σ weight cos(m · place) for m = 0 … last, by Chebyshev's recurrence. Sixteen places at a time.
-std::vector<double> cosine_sums(const std::vector<double>& place, const std::vector<double>& weight,
+/// Σ weight cos(m · position) for m = 0 … last, by Chebyshev's recurrence. Sixteen positions at a time.
+std::vector<double> cosine_sums(const std::vector<double>& position, const std::vector<double>& weight,
                                 int last) {
   constexpr std::size_t kTogether = 16;
   std::vector<double> sums(static_cast<std::size_t>(last) + 1);
-  for (std::size_t first = 0; first < place.size(); first += kTogether) {
+  for (std::size_t first = 0; first < position.size(); first += kTogether) {
     double now[kTogether] = {}, before[kTogether] = {}, twice[kTogether] = {};
-    for (std::size_t i = 0; i < kTogether && first + i < place.size(); ++i) {
-      const double cosine = std::cos(place[first + i]);
+    for (std::size_t i = 0; i < kTogether && first + i < position.size(); ++i) {
+      const double cosine = std::cos(position[first + i]);
       twice[i] = 2 * cosine;
       now[i] = weight[first + i];
       before[i] = weight[first + i] * cosine;
@@ -94,7 +94,8 @@ class Near {
   double scale_, core_, sharpness_, last_;
 };
 
-/// The same for many looks: linear between values at even steps of the chord, off by 1e-6 of the largest.
+/// The same for many evaluations: linear between values at even steps of the chord, off by 1e-6 of the
+/// largest.
 class SampledNear {
  public:
   explicit SampledNear(const Near& near) : last_(near.last()), scale_(kSteps / std::sqrt(2 * last_)) {
@@ -102,10 +103,10 @@ class SampledNear {
   }
   double last() const { return last_; }
   double operator()(double s) const {
-    const double place = std::sqrt(2 * s) * scale_;
-    if (!(place < kSteps)) return 0;
-    const std::size_t below = static_cast<std::size_t>(place);
-    return values_[below] + (place - static_cast<double>(below)) * (values_[below + 1] - values_[below]);
+    const double position = std::sqrt(2 * s) * scale_;
+    if (!(position < kSteps)) return 0;
+    const std::size_t below = static_cast<std::size_t>(position);
+    return values_[below] + (position - static_cast<double>(below)) * (values_[below + 1] - values_[below]);
   }
 
  private:
@@ -122,8 +123,8 @@ std::vector<double> zonal_of(const Part& near, double width, int degree) {
   const double end = std::acos(1 - near.last());
   for (double from = 0, to = std::min(end, width / 4); from < end; from = to, to = std::min(end, to * 1.6)) {
     const Nodes nodes(to - from, 1);
-    for (std::size_t i = 0; i < nodes.place.size(); ++i) {
-      const double angle = from + nodes.place[i];
+    for (std::size_t i = 0; i < nodes.position.size(); ++i) {
+      const double angle = from + nodes.position[i];
       s.push_back(lobe::s_of_angle(angle));
       weight.push_back(nodes.weight[i] * 2 * kPi * std::sin(angle) * near(s.back()));
     }
@@ -158,9 +159,9 @@ Split split_of(const lobe::AnyLobe& lobe, double scale, const std::vector<double
   return best;
 }
 
-/// Spreading masses by polynomials of degree five and reading a spline, both between rows, weaken detail of ω
-/// radians to a row: 1 at ω = 0, and 0.96, 0.89, 0.79 at 0.5π, 0.6π, 0.7π, averaged over places between rows.
-/// 1 + kSharpening (2 sin ω/2)⁶ makes up for that: 1.05, 1.12, 1.21.
+/// Spreading weights by polynomials of degree five and reading a spline, both between rows, weaken detail of
+/// ω radians to a row: 1 at ω = 0, and 0.96, 0.89, 0.79 at 0.5π, 0.6π, 0.7π, averaged over positions between
+/// rows. 1 + kSharpening (2 sin ω/2)⁶ makes up for that: 1.05, 1.12, 1.21.
 constexpr double kSharpening = 1.0 / 150;
 
 /// Lines at whole numbers of rows from the axis: transforms F(μ) = 1/2π ∫ near(s + y²/2) cos μy dy, and what
@@ -181,10 +182,10 @@ class Lines {
       const double beside = lobe::s_of_angle(offset * step);
       Nodes nodes(std::sqrt(2 * std::max(0.0, near.last() - beside)),
                   std::max(4, static_cast<int>(end / std::min(core, end) / 2)));
-      for (std::size_t i = 0; i < nodes.place.size(); ++i) {
-        nodes.weight[i] *= near(beside + nodes.place[i] * nodes.place[i] / 2) / kPi;
+      for (std::size_t i = 0; i < nodes.position.size(); ++i) {
+        nodes.weight[i] *= near(beside + nodes.position[i] * nodes.position[i] / 2) / kPi;
       }
-      lines[static_cast<std::size_t>(offset)] = cosine_sums(nodes.place, nodes.weight, most);
+      lines[static_cast<std::size_t>(offset)] = cosine_sums(nodes.position, nodes.weight, most);
     });
     const std::size_t count = static_cast<std::size_t>(most) + 1;
     for (int offset = 0; offset <= reach; ++offset) {
@@ -255,10 +256,10 @@ std::vector<double> around_pole(const SampledNear& near, double core, double apa
   const double around = bend >= 2 ? kPi : std::acos(1 - std::max(0.0, bend));
   const double detail = std::max(last * around / 32, around * std::sqrt(product) / core / 2);
   Nodes nodes(around, 1 + static_cast<int>(std::ceil(detail)));
-  for (std::size_t i = 0; i < nodes.place.size(); ++i) {
-    nodes.weight[i] *= near(beside + product * lobe::s_of_angle(nodes.place[i])) / kPi;
+  for (std::size_t i = 0; i < nodes.position.size(); ++i) {
+    nodes.weight[i] *= near(beside + product * lobe::s_of_angle(nodes.position[i])) / kPi;
   }
-  return cosine_sums(nodes.place, nodes.weight, last);
+  return cosine_sums(nodes.position, nodes.weight, last);
 }
 
 }  // namespace
@@ -294,7 +295,7 @@ NearField::NearField(const lobe::AnyLobe& lobe, const std::vector<double>& zonal
   const auto pack_of = [&](int row) -> const Pack& { return packs[static_cast<std::size_t>(row / 8)]; };
   const auto blocks_of = [](const Pack& pack) { return pack.last / pack.stride + 4; };
   const auto order = [](const Pack& pack, int block) { return std::abs(block - 1) * pack.stride; };
-  const auto place = [&](int row, int block, int offset) -> float& {
+  const auto entry = [&](int row, int block, int offset) -> float& {
     return table[static_cast<std::size_t>(pack_of(row).begin + (block * width + reach + offset) * 8 +
                                           row % 8)];
   };
@@ -314,16 +315,16 @@ NearField::NearField(const lobe::AnyLobe& lobe, const std::vector<double>& zonal
           around_pole(near, core, offset * step, product,
                       std::max(order(pack, blocks), order(beside, blocks_of(beside))));
       for (int block = 0; block < blocks; ++block) {
-        place(row, block, offset) = static_cast<float>(exact[static_cast<std::size_t>(order(pack, block))]);
+        entry(row, block, offset) = static_cast<float>(exact[static_cast<std::size_t>(order(pack, block))]);
       }
       for (int block = 0; block < blocks_of(beside) && other < rows / 2; ++block) {
-        place(other, block, -offset) =
+        entry(other, block, -offset) =
             static_cast<float>(exact[static_cast<std::size_t>(order(beside, block))]);
       }
     }
     for (int block = 0; block < blocks; ++block) {
       for (const auto& [offset, k] : straight) {
-        place(row, block, offset) = static_cast<float>(k(order(pack, block)));
+        entry(row, block, offset) = static_cast<float>(k(order(pack, block)));
       }
     }
   });

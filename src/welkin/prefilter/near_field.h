@@ -14,7 +14,7 @@ namespace welkin::prefilter {
 
 /// The near part of a lobe on a grid of rows, for orders 0 … last.
 ///
-/// The order m of a result's row θ is Σ over rows θ′ of K_m(θ, θ′) times the order m of the masses, with
+/// The order m of a result's row θ is Σ over rows θ′ of K_m(θ, θ′) times the order m of its points, with
 /// K_m = 1/2π ∫ near(s) cos mφ dφ, s = 1 − cos(θ − θ′) + sin θ sin θ′ (1 − cos φ).
 ///
 /// K makes up for the fine detail across rows that is lost on the way: see kSharpening in the source.

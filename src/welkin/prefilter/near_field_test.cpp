@@ -22,8 +22,8 @@ double at(const NearField& field, int row, int offset, int order) {
   double sum = 0;
   for (int i = 0; i < 4; ++i) {
     const int column = (order / pack.stride + i) * (2 * field.reach + 1) + field.reach + offset;
-    const std::ptrdiff_t place = pack.begin + column * 8 + row % 8;
-    sum += blend[i] * static_cast<double>(field.table[static_cast<std::size_t>(place)]);
+    const std::ptrdiff_t index = pack.begin + column * 8 + row % 8;
+    sum += blend[i] * static_cast<double>(field.table[static_cast<std::size_t>(index)]);
   }
   return sum;
 }

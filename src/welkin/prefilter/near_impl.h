@@ -15,9 +15,9 @@ struct Near {
     const float* f = Fft<Arch>::forward(plan, lanes, work);
     float* orders = to.values;
     for (int m = 0; m <= last; ++m, orders += to.order) {
-      const int place = m % plan.length;
-      const float* a = f + static_cast<std::ptrdiff_t>(place) * 16;
-      const float* b = f + static_cast<std::ptrdiff_t>(place == 0 ? 0 : plan.length - place) * 16;
+      const int position = m % plan.length;
+      const float* a = f + static_cast<std::ptrdiff_t>(position) * 16;
+      const float* b = f + static_cast<std::ptrdiff_t>(position == 0 ? 0 : plan.length - position) * 16;
       const V half(0.5f * factors[m]);
       const V are = V::load(a), aim = V::load(a + 8), bre = V::load(b), bim = V::load(b + 8);
       (half * (are + bre)).store(orders);
@@ -51,8 +51,8 @@ struct Near {
         south[p] = V::fma(weight, V::load(in + p * from.part + from.half), south[p]);
       }
     }
-    // north + i·south at m; conj(north) + i·conj(south) at −m; both turned.
-    const V cosine(to.turn[2 * order]), sine(to.turn[2 * order + 1]);
+    // north + i·south at m; conj(north) + i·conj(south) at −m; both shifted by their phases.
+    const V cosine(to.phases[2 * order]), sine(to.phases[2 * order + 1]);
     float* a = to.lanes + static_cast<std::ptrdiff_t>(order) * 16;
     float* b = to.lanes + static_cast<std::ptrdiff_t>(order == 0 ? 0 : to.length - order) * 16;
     for (int c = 0; c < kChannels; ++c, a += to.channel, b += to.channel) {

@@ -1,19 +1,13 @@
+#include "welkin/prefilter/plan.h"
+
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <optional>
 
 #include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
-#include "welkin/base/parallel.h"
-#include "welkin/filter/resample.h"
 #include "welkin/lobe/energy.h"
-#include "welkin/map/adjust.h"
 #include "welkin/map/texel_points.h"
-#include "welkin/prefilter/source_faults.h"
-#include "welkin/prefilter/spline_grid.h"
-#include "welkin/prefilter/tables.h"
-#include "welkin/prefilter/widen.h"
 
 namespace welkin {
 namespace {
@@ -33,63 +27,13 @@ void check(const PrefilterShape& source, const std::vector<PrefilterLevel>& leve
   }
 }
 
-/// Throws for what can't be convolved.
-void check_values(const Map& source, const Monitor& monitor) {
-  std::atomic<bool> fine{true};
-  parallel_for(
-      source.charts() * source.height(),
-      [&](int i) {
-        const float* row = source.level.chart(i / source.height()).row(i % source.height());
-        int wrong = 0;
-        for (int x = 0; x < source.width() * source.channels(); ++x)
-          wrong += std::fabs(row[x]) <= kMostRadiance ? 0 : 1;
-        if (wrong > 0) fine = false;
-      },
-      without_progress(monitor));
-  if (!fine)
-    throw Error(ErrorKind::bad_value,
-                "prefilter: the map has values that are NaN, infinite, or beyond ±1e30");
-}
-
-/// See PrefilterOptions::mirror_filter.
-Filter mirror_filter(const PrefilterOptions& options, const Map& from,
-                     const sphere::AnyParameterization& target, ChartSize size) {
-  if (options.mirror_filter != Filter::automatic) return options.mirror_filter;
-  const double source = mean_texel(from.parameterization, {from.width(), from.height()});
-  return mean_texel(target, size) < 1.5 * source ? Filter::bilinear : Filter::automatic;
-}
-
-/// cos, sin of the shift between the columns of two grids, for each order; times the B-spline's transform
-/// along the row and the 6 of to_spline_columns.
-std::vector<float> turns(int last, int grid_width, int moments_width) {
-  std::vector<float> turn;
-  for (int m = 0; m <= last; ++m) {
-    const double shift = kPi * m * (1.0 / grid_width - 1.0 / moments_width);
-    const double spline = 6 * 3 / (2 + std::cos(2 * kPi * m / grid_width));
-    turn.push_back(static_cast<float>(spline * std::cos(shift)));
-    turn.push_back(static_cast<float>(spline * std::sin(shift)));
-  }
-  return turn;
-}
-
-/// Factors of the orders of rows of boxes, or 1.
-std::vector<float> order_factors(const MomentPlan& moments, int last) {
-  std::vector<float> factors;
-  for (int m = 0; m <= last; ++m) {
-    const double x = kPi * m / moments.width;
-    const bool box = moments.way == MomentPlan::Way::spread_boxes && m > 0;
-    factors.push_back(static_cast<float>(box ? std::sin(x) / x : 1.0));
-  }
-  return factors;
-}
-
 /// Lobes with more degrees than this are split into near and far.
-constexpr int kMostDegree = 480;
+constexpr int kMaxDegree = 480;
 
 /// Whether a lobe is to be split into near and far: too many degrees, and most of it near its axis. A narrow
 /// ring isn't.
 bool is_split(const lobe::AnyLobe& lobe, int degree) {
-  return degree > kMostDegree && lobe::angle_holding(lobe, 0.5) < 0.2;
+  return degree > kMaxDegree && lobe::energy_cone_angle(lobe, 0.5) < 0.2;
 }
 
 /// Rows that a near part is done on. They resolve what is left of the lobe at the scale of `texel`, the wider
@@ -109,11 +53,11 @@ int far_degree(int rows) {
 
 /// Throws when a near part's tables and rows would take more memory than is reasonable.
 void check_near_size(int rows, int channels) {
-  // Tables, masses and results; the bands of rows between are small.
+  // Tables, points and results; the bands of rows between are small.
   const double n = rows, orders = 1.2 * n;
   const double bytes = 4 * (orders / 8 * 30 * n / 2 + 4.4 * n * n * channels);
-  constexpr double kMost = 24e9;
-  if (bytes > kMost) {
+  constexpr double kMaxBytes = 24e9;
+  if (bytes > kMaxBytes) {
     throw Error(ErrorKind::too_large,
                 "prefilter: so narrow a lobe on so fine a level would take " +
                     number_text(std::round(bytes / 1e9)) +
@@ -121,151 +65,88 @@ void check_near_size(int rows, int channels) {
   }
 }
 
-}  // namespace
+/// How a level that is no mirror's is done.
+struct Choice {
+  WidenedLobe lobe;
+  int near_rows = 0;  ///< 0 when the lobe isn't split
+  int degree() const { return near_rows > 0 ? far_degree(near_rows) : lobe.degree(); }
+};
 
-HarmonicLevel::HarmonicLevel(const WidenedLobe& widened, const std::vector<double>& coefficients, int number,
-                             int moments_width)
-    : index(number),
-      degree(static_cast<int>(coefficients.size()) - 1),
-      grid{fft_length(static_cast<int>(2.2 * degree) + 8), 0},
-      fft(grid.width),
-      latitudes(grid.width / 2, degree),
-      zonal(coefficients.begin(), coefficients.end()),
-      turn(turns(degree, grid.width, moments_width)),
-      lobe(widened.lobe),
-      all(widened.smooth),
-      scale(1 / widened.lobe.integral()) {
-  grid.height = grid.width / 2;
+/// None for mirrors. How fine a lobe is decides.
+std::vector<std::optional<Choice>> choose(const PrefilterPlan::Tables& t) {
+  std::vector<std::optional<Choice>> choices(t.levels.size());
+  const double source_texel = mean_texel(t.source.parameterization, t.source.size);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const lobe::AnyLobe& lobe = t.levels[i].lobe;
+    if (lobe.mirror()) continue;
+    const double texel = std::max(source_texel, mean_texel(t.target, t.levels[i].size));
+    Choice& choice = choices[i].emplace(Choice{widen(lobe, texel, t.options.tolerance / 5)});
+    if (!is_split(lobe, choice.lobe.degree())) continue;
+    choice.near_rows = near_rows(t.source.parameterization, source_texel, texel, choice.lobe.degree());
+    check_near_size(choice.near_rows, t.source.channels);
+  }
+  return choices;
 }
 
-NearLevel::NearLevel(const WidenedLobe& widened, std::size_t number, int rows, int degree, double tolerance,
-                     int moments_width)
-    : harmonic(number),
-      field(widened.lobe, widened.zonal, rows, degree, tolerance),
-      grid{fft_length(std::max(2 * rows, 2 * field.last + 4)), rows},
-      fft(grid.width),
-      turn(turns(field.last, grid.width, moments_width)) {}
+/// Read from the source; or from its averages over boxes, which come with the points, where these are fine
+/// enough.
+void add_mirror(PrefilterPlan::Tables& t, std::size_t level) {
+  PrefilterMethod& method = t.methods.emplace_back(PrefilterMethod{"resample", 0, {}, t.levels[level].lobe});
+  if (!t.analysis || t.options.mirror_filter != Filter::automatic) return;
+  PointGridPlan& points = t.analysis->points;
+  const double texel = mean_texel(t.target, t.levels[level].size);
+  const double reduced = mean_texel(t.source.parameterization, {points.width, points.height});
+  method.reduced = points.reduces() && points.rows_per_point > 0 && reduced < 1.2 * texel;
+  points.reduced = points.reduced || method.reduced;
+}
 
-NearGroup::NearGroup(const PrefilterShape& source, int rows, int last_order)
-    : moments(MomentPlan::with_rows(source.parameterization, source.size, rows)),
-      fft(moments.width),
-      factors(order_factors(moments, last_order)) {}
+void add_harmonic(PrefilterPlan::Tables& t, std::size_t level, const WidenedLobe& lobe) {
+  HarmonicLevel& harmonic =
+      t.harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(level), t.analysis->points.width);
+  if (lobe.sigma > 0) harmonic.sampled.emplace(lobe.lobe);
+  t.methods.push_back({"harmonics", lobe.degree(), harmonic.grid, lobe.lobe, lobe.sigma, false});
+}
+
+void add_near_and_far(PrefilterPlan::Tables& t, std::size_t level, const Choice& choice) {
+  const int rows = choice.near_rows;
+  auto group = std::find_if(t.near.begin(), t.near.end(),
+                            [&](const NearGroup& each) { return each.points.height == rows; });
+  if (group == t.near.end()) group = t.near.emplace(t.near.end(), t.source, rows, 4 * rows);
+  const NearLevel& near = group->levels.emplace_back(choice.lobe, t.harmonic.size(), rows, choice.degree(),
+                                                     t.options.tolerance / 5, group->points.width);
+  t.harmonic.emplace_back(choice.lobe, near.field.far, static_cast<int>(level), t.analysis->points.width)
+      .all = true;
+  t.methods.push_back(
+      {"near and far", choice.degree(), near.grid, choice.lobe.lobe, choice.lobe.sigma, false});
+}
+
+}  // namespace
 
 PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyParameterization& target,
                              std::vector<PrefilterLevel> levels, const PrefilterOptions& options) {
   check(source, levels, options);
   auto tables = std::make_shared<Tables>(Tables{source, target, std::move(levels), options});
-  // How fine each lobe is decides on the method.
-  const double source_texel = mean_texel(source.parameterization, source.size);
-  const auto texel_of = [&](std::size_t i) {
-    return std::max(source_texel, mean_texel(target, tables->levels[i].size));
-  };
-  struct Choice {
-    WidenedLobe lobe;
-    int near_rows;  ///< 0 when the lobe isn't split
-  };
-  std::vector<std::optional<Choice>> choices(tables->levels.size());
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    const PrefilterLevel& level = tables->levels[i];
-    if (level.lobe.mirror()) continue;
-    choices[i] = {widen(level.lobe, texel_of(i), options.tolerance / 5), 0};
-    Choice& choice = *choices[i];
-    if (is_split(level.lobe, choice.lobe.degree())) {
-      choice.near_rows = near_rows(source.parameterization, source_texel, texel_of(i), choice.lobe.degree());
-      check_near_size(choice.near_rows, source.channels);
-    }
-    tables->degree =
-        std::max(tables->degree, choice.near_rows > 0 ? far_degree(choice.near_rows) : choice.lobe.degree());
+  const std::vector<std::optional<Choice>> choices = choose(*tables);
+  // The points and their analysis serve the level of the largest degree.
+  int degree = -1;
+  for (const auto& choice : choices) {
+    if (choice) degree = std::max(degree, choice->degree());
   }
-  if (tables->degree > 0) tables->moments.emplace_back(source.parameterization, source.size, tables->degree);
+  if (degree >= 0) tables->analysis.emplace(source, degree);
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (!choices[i]) {
-      tables->methods.push_back({"resample", 0, {}, tables->levels[i].lobe, 0, false});
-      if (tables->degree > 0 && options.mirror_filter == Filter::automatic) {
-        MomentPlan& moments = tables->moments[0];
-        const double texel = mean_texel(target, tables->levels[i].size);
-        const double reduced = mean_texel(source.parameterization, {moments.width, moments.height});
-        tables->methods.back().reduced =
-            moments.reduces() && moments.rows_per_mass > 0 && reduced < 1.2 * texel;
-        moments.reduced = moments.reduced || tables->methods.back().reduced;
-      }
-      continue;
+      add_mirror(*tables, i);
+    } else if (choices[i]->near_rows == 0) {
+      add_harmonic(*tables, i, choices[i]->lobe);
+    } else {
+      add_near_and_far(*tables, i, *choices[i]);
     }
-    const auto& [lobe, rows] = *choices[i];
-    const int width = tables->moments[0].width;
-    if (rows == 0) {
-      HarmonicLevel& harmonic = tables->harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(i), width);
-      if (lobe.sigma > 0) harmonic.sampled.emplace_back(lobe.lobe);
-      tables->methods.push_back(
-          {"harmonics", lobe.degree(), tables->harmonic.back().grid, lobe.lobe, lobe.sigma, false});
-      continue;
-    }
-    auto group =
-        std::find_if(tables->near.begin(), tables->near.end(),
-                     [height = rows](const NearGroup& each) { return each.moments.height == height; });
-    if (group == tables->near.end()) {
-      group = tables->near.emplace(tables->near.end(), source, rows, 4 * rows);
-    }
-    NearLevel& near = group->levels.emplace_back(lobe, tables->harmonic.size(), rows, far_degree(rows),
-                                                 options.tolerance / 5, group->moments.width);
-    tables->harmonic.emplace_back(lobe, near.field.far, static_cast<int>(i), width).all = true;
-    tables->methods.push_back({"near and far", far_degree(rows), near.grid, lobe.lobe, lobe.sigma, false});
-  }
-  if (!tables->harmonic.empty()) {
-    for (int m = 0; m <= tables->degree; ++m) tables->recurrences.emplace_back(m, tables->degree);
-    const MomentPlan& moments = tables->moments[0];
-    tables->moments_fft.emplace_back(moments.width);
-    tables->moments_latitudes.emplace_back(moments.height, tables->degree);
-    tables->order_factors = order_factors(moments, tables->degree);
   }
   tables_ = std::move(tables);
 }
 
 const std::vector<PrefilterMethod>& PrefilterPlan::methods() const {
   return tables_->methods;
-}
-
-std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) const {
-  const Tables& t = *tables_;
-  if (!(source.parameterization == t.source.parameterization) || source.width() != t.source.size.width ||
-      source.height() != t.source.size.height || source.channels() != t.source.channels) {
-    throw Error(ErrorKind::mismatch, "prefilter: the map has another shape than the plan was made for");
-  }
-  std::vector<Map> results;
-  for (const PrefilterLevel& level : t.levels) {
-    Map& map = results.emplace_back(t.target.at_size(level.size.width, level.size.height), level.size.width,
-                                    level.size.height, source.channels());
-    map.channel_names = source.channel_names;
-    map.orientation = t.options.orientation;
-  }
-  std::optional<Map> reduced;
-  if (t.harmonic.empty()) {
-    check_values(source, monitor);
-  } else {
-    reduced = run_harmonics(t, source, results, monitor);
-  }
-  if (reduced) fill_latlong_border(reduced->level);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    if (!t.levels[i].lobe.mirror()) continue;
-    const Map& from = reduced && t.methods[i].reduced ? *reduced : source;
-    ResampleOptions how;
-    how.filter = mirror_filter(t.options, from, results[i].parameterization, t.levels[i].size);
-    how.monitor = without_progress(monitor);
-    resample(from, results[i], how);
-  }
-  if (t.options.scale == LobeScale::integral) {
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      if (!t.levels[i].lobe.mirror()) scale(results[i], static_cast<float>(t.levels[i].lobe.integral()));
-    }
-  }
-  return results;
-}
-
-std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
-                               std::vector<PrefilterLevel> levels, const PrefilterOptions& options,
-                               const Monitor& monitor) {
-  const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
-  return PrefilterPlan(shape, target, std::move(levels), options).run(source, monitor);
 }
 
 }  // namespace welkin

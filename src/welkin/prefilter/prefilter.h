@@ -47,6 +47,7 @@ struct PrefilterOptions {
   /// where it is finer, averaged over the level's texels, or over boxes of its own about as large and then
   /// bilinear.
   Filter mirror_filter = Filter::automatic;
+  bool borders = true;  ///< false: leave the results' borders (fill_borders) to the caller
 };
 
 /// How a level is computed.
@@ -72,9 +73,9 @@ class PrefilterPlan {
                 std::vector<PrefilterLevel> levels, const PrefilterOptions& options = {});
 
   /// The levels of a map of the plan's source shape (Error when it is another), which must have its borders
-  /// filled; the results' are not. Throws Error for values that aren't finite, or so large that their
-  /// sum passes 1e34; Cancelled. Results are never negative where the source isn't. The same numbers whatever
-  /// the number of threads.
+  /// filled; the results' are too, unless PrefilterOptions::borders says otherwise. Throws Error for values
+  /// that aren't finite, or so large that their sum passes 1e34; Cancelled. Results are never negative where
+  /// the source isn't. The same numbers whatever the number of threads.
   std::vector<Map> run(const Map& source, const Monitor& monitor = {}) const;
 
   const std::vector<PrefilterMethod>& methods() const;

@@ -80,15 +80,15 @@ struct Errors {
   double relative_rmse = 0, maximum = 0;
 };
 
-/// A level against brute force with `lobe` in every `step`-th of its places. Maximum: relative to the
+/// A level against brute force with `lobe` in every `step`-th of its valid texels. Maximum: relative to the
 /// reference, taken to be a hundredth of its root mean square at least.
 inline Errors errors_of(const Map& level, const PrefilterReference& reference, const AnyLobe& lobe,
                         int step) {
   std::vector<Vec3d> directions;
   std::vector<const float*> texels;
-  int place = 0;
+  int index = 0;
   cases::for_each_place(level, [&](int chart, int x, int y) {
-    if (place++ % step != 0) return;
+    if (index++ % step != 0) return;
     directions.push_back(cases::direction_at(level, chart, x, y));
     texels.push_back(level.level.chart(chart).at(x, y));
   });
@@ -112,7 +112,7 @@ inline Errors errors_of(const Map& level, const PrefilterReference& reference, c
   return errors;
 }
 
-/// body(value) for every channel of every place.
+/// body(value) for every channel of every valid texel.
 template <class Body>
 void for_each_value(const Map& map, const Body& body) {
   cases::for_each_place(map, [&](int chart, int x, int y) {

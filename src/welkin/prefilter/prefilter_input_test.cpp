@@ -5,6 +5,7 @@
 #include <limits>
 #include <thread>
 
+#include "welkin/base/error.h"
 #include "welkin/prefilter/prefilter_cases.h"
 
 /// What plans refuse, how they can be shared, and how they stop.

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "welkin/filter/sample.h"
 #include "welkin/prefilter/prefilter_cases.h"
 #include "welkin/sphere/convention.h"
 
@@ -47,6 +48,48 @@ double furnace(const Map& level, double value) {
   double worst = 0;
   for_each_value(level, [&](double each) { worst = std::max(worst, std::fabs(each / value - 1)); });
   return worst;
+}
+
+/// A level can be looked up as it comes: beside the charts' edges, where kernels read the borders, a constant
+/// is the constant too, to the furnace's 5e-4 at the default tolerance.
+TEST(PrefilterLaws, AConstantMapIsConstantInLookUpsBesideEdges) {
+  for (const char* target : {"cube", "octahedral", "latlong", "healpix", "eac", "sphere"}) {
+    const Map source = filled("latlong", 32, 16, 2.0f);
+    const Map shape = cases::make_map(target, 8);
+    const ChartSize size{shape.width(), shape.height()};
+    for (const Map& level : run(source, target, size)) {
+      std::vector<Vec3d> directions;
+      for (int chart = 0; chart < level.charts(); ++chart) {
+        for (int i = 0; i <= 16; ++i) {
+          for (const double edge : {1e-3, 0.999}) {
+            directions.push_back(level.parameterization.to_sphere(chart, i / 16.0, edge));
+            directions.push_back(level.parameterization.to_sphere(chart, edge, i / 16.0));
+          }
+        }
+      }
+      std::vector<float> values(directions.size());
+      for (const Filter filter : {Filter::bilinear, Filter::bicubic, Filter::lanczos}) {
+        sample(level, level.level, directions, filter, values);
+        for (const float value : values) EXPECT_NEAR(value, 2, 1e-3) << target;
+      }
+    }
+  }
+}
+
+/// PrefilterOptions::borders: the same levels, their borders left at 0.
+TEST(PrefilterLaws, BordersCanBeLeftToTheCaller) {
+  const Map source = landscape("latlong", 32, 16);
+  PrefilterOptions without;
+  without.borders = false;
+  std::vector<Map> filled_ones = run(source, "cube", {8, 8}), bare = run(source, "cube", {8, 8}, without);
+  for (std::size_t i = 0; i < bare.size(); ++i) {
+    EXPECT_EQ(*bare[i].level.chart(2).at(-1, 3), 0);
+    fill_borders(bare[i]);
+    for (int y = -kBorder; y < 8 + kBorder; ++y) {
+      for (int x = -kBorder; x < 8 + kBorder; ++x)
+        EXPECT_EQ(*bare[i].level.chart(2).at(x, y), *filled_ones[i].level.chart(2).at(x, y));
+    }
+  }
 }
 
 /// As near as one asks for: 1e-5 at a tolerance of 2e-5; 5e-5 with rims that reach far along meridians

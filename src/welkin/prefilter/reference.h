@@ -13,7 +13,7 @@ namespace welkin {
 /// Pre-filtering by brute force in float64: for any direction, the sum over all the source's texels of
 /// radiance times the integral of the lobe over the texel. The definition itself, as far as quadrature goes:
 /// four points to a texel, as many as it takes where a rim or a kink goes through it (texel_points.h), and
-/// texels near the direction cut up until a piece is a tenth as wide as what the lobe does over its place.
+/// texels near the direction cut up until a piece is a tenth as wide as what the lobe does there.
 /// Relative error 1e-6 of the sum.
 class PrefilterReference {
  public:

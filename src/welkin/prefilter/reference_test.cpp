@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "welkin/base/error.h"
 #include "welkin/lobe/lobe_cases.h"
 #include "welkin/lobe/zonal.h"
 #include "welkin/prefilter/prefilter_cases.h"

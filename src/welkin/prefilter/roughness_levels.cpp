@@ -22,13 +22,13 @@ std::optional<Parameter> roughness_parameter(const lobe::AnyLobe& lobe) {
 std::vector<PrefilterLevel> roughness_levels(const lobe::AnyLobe& lobe, const lobe::RoughnessCurve& curve,
                                              ChartSize finest, int count) {
   const std::optional<Parameter> parameter = roughness_parameter(lobe);
-  const double lowest = parameter ? parameter->lowest : 0;
+  const double minimum = parameter ? parameter->lowest : 0;
   std::vector<PrefilterLevel> levels;
   for (int level = 0; level < count; ++level) {
     double roughness = curve.roughness(level, count);
-    if (roughness < lowest && curve.listed_levels() == 0) {
+    if (roughness < minimum && curve.listed_levels() == 0) {
       const double next = level + 1 < count ? curve.roughness(level + 1, count) : 1;
-      roughness = std::max(next / 2, lowest);
+      roughness = std::max(next / 2, minimum);
     }
     levels.push_back({chain_size(finest, level), lobe.with_roughness(roughness)});
   }

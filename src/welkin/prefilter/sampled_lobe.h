@@ -8,7 +8,7 @@
 
 namespace welkin::prefilter {
 
-/// A lobe sampled once, for many looks at it: linear between values at even steps of c/(c + core), c the
+/// A lobe sampled once, for many evaluations: linear between values at even steps of c/(c + core), c the
 /// chord of the angle, from the axis to the opposite direction.
 class ChordSamples {
  public:
@@ -16,9 +16,9 @@ class ChordSamples {
   ChordSamples(const lobe::AnyLobe& lobe, double core, int steps, double scale = 1);
 
   double at_chord(double chord) const {
-    const double place = std::min(1.0, chord / (chord + core_) / last_) * steps_;
-    const std::size_t below = static_cast<std::size_t>(place);
-    return values_[below] + (place - static_cast<double>(below)) * (values_[below + 1] - values_[below]);
+    const double position = std::min(1.0, chord / (chord + core_) / last_) * steps_;
+    const std::size_t below = static_cast<std::size_t>(position);
+    return values_[below] + (position - static_cast<double>(below)) * (values_[below + 1] - values_[below]);
   }
   /// steps + 2 of them.
   const std::vector<double>& values() const { return values_; }

@@ -11,10 +11,10 @@
 namespace welkin {
 namespace {
 
-/// Whether all values are in 0…kMostRadiance, or −0.
+/// Whether all values are in 0…kMaxRadiance, or −0.
 bool is_faultless(const float* values, std::ptrdiff_t count) {
   int faults = 0;
-  for (std::ptrdiff_t i = 0; i < count; ++i) faults |= values[i] >= 0 && values[i] <= kMostRadiance ? 0 : 1;
+  for (std::ptrdiff_t i = 0; i < count; ++i) faults |= values[i] >= 0 && values[i] <= kMaxRadiance ? 0 : 1;
   return faults == 0;
 }
 
@@ -22,7 +22,7 @@ void count_faults(const float* texel, int channels, SourceFaults& faults) {
   bool finite = true, excessive = false, negative = false;
   for (int c = 0; c < channels; ++c) {
     finite = finite && std::isfinite(texel[c]);
-    excessive = excessive || std::fabs(texel[c]) > kMostRadiance;
+    excessive = excessive || std::fabs(texel[c]) > kMaxRadiance;
     negative = negative || texel[c] < 0;
   }
   if (!finite) {
@@ -36,12 +36,12 @@ void count_faults(const float* texel, int channels, SourceFaults& faults) {
 
 }  // namespace
 
-SourceFaults faults_of(const Map& map) {
+SourceFaults faults_of(const Map& map, const Monitor& monitor) {
   const int width = map.width(), height = map.height(), channels = map.channels();
   const RowBands bands(map.charts() * height);
   SourceFaults total;
   std::mutex mutex;
-  parallel_for(bands.count, [&](int band) {
+  const auto count = [&](int band) {
     SourceFaults faults;
     std::vector<float> omega(static_cast<std::size_t>(width));
     for (int row = bands.first(band); row < bands.first(band + 1); ++row) {
@@ -56,7 +56,8 @@ SourceFaults faults_of(const Map& map) {
     total.not_finite += faults.not_finite;
     total.excessive += faults.excessive;
     total.negative += faults.negative;
-  });
+  };
+  parallel_for(bands.count, count, monitor);
   return total;
 }
 

@@ -2,21 +2,23 @@
 
 #include <cstdint>
 
+#include "welkin/base/monitor.h"
 #include "welkin/map/map.h"
 
 namespace welkin {
 
-/// Values of a map's places that pre-filtering refuses, or that are odd.
+/// Values of a map's valid texels that pre-filtering refuses, or that are odd.
 struct SourceFaults {
   std::uint64_t not_finite = 0;  ///< texels with a value that is NaN or infinite
-  std::uint64_t excessive = 0;   ///< texels with a value of over kMostRadiance, either sign; besides those
+  std::uint64_t excessive = 0;   ///< texels with a value of over kMaxRadiance, either sign; besides those
   std::uint64_t negative = 0;    ///< texels with a value below 0; besides those
 };
 
 /// The largest magnitude that PrefilterPlan::run takes.
-inline constexpr float kMostRadiance = 1e30f;
+inline constexpr float kMaxRadiance = 1e30f;
 
-/// Reads the charts once, at the speed of memory where there is nothing to find.
-SourceFaults faults_of(const Map& map);
+/// Reads the charts once, at the speed of memory where there is nothing to find. Texels that are not valid
+/// (AnyParameterization::valid) are ignored. Throws Cancelled.
+SourceFaults faults_of(const Map& map, const Monitor& monitor = {});
 
 }  // namespace welkin

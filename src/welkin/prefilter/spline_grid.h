@@ -9,7 +9,7 @@
 /// A smooth function on a lat-long grid, read by a cubic spline.
 namespace welkin::prefilter {
 
-/// Columns [first, last) of the western half and their counterparts half a turn on: values become
+/// Columns [first, last) of the western half and their counterparts 180° on: values become
 /// coefficients of the cubic B-spline along the meridian, the great circle that the two halves make (M.
 /// Unser, A. Aldroubi & M. Eden, "B-spline signal processing", 1993, part I, eqs. 2.5; poles z = √3 − 2).
 /// Values must have been multiplied by 6; those along rows are coefficients already.

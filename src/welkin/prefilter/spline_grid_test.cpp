@@ -49,7 +49,7 @@ Level grid_of(int height, int channels, int strip) {
   return grid;
 }
 
-/// The largest error at places (u, v).
+/// The largest error at positions (u, v).
 double error_at(const Level& grid, const std::vector<float>& u, const std::vector<float>& v) {
   const int channels = grid.channels();
   std::vector<float> chart(u.size()), out(u.size() * static_cast<std::size_t>(channels) + 8);
@@ -67,7 +67,7 @@ double error_at(const Level& grid, const std::vector<float>& u, const std::vecto
   return worst;
 }
 
-/// Rounding of the places in u and v and of the coefficients: 2e-6 of a function of about 1.
+/// Rounding of the positions in u and v and of the coefficients: 2e-6 of a function of about 1.
 TEST(SplineGrid, HasTheFunctionsValuesAtItsPoints) {
   for (const int height : {4, 8, 10, 32, 90}) {
     for (const int channels : {1, 3, 5}) {
@@ -85,14 +85,14 @@ TEST(SplineGrid, HasTheFunctionsValuesAtItsPoints) {
 }
 
 /// Between them the error falls as the fourth power of the step (Unser 1993, part I): across the poles and
-/// the seam too, where half of these places lie.
+/// the seam too, where half of these positions lie.
 TEST(SplineGrid, FollowsTheFunctionBetweenPolesAndSeam) {
   std::mt19937 random(2);
-  std::uniform_real_distribution<float> place, near(0, 0.03f);
+  std::uniform_real_distribution<float> position, near(0, 0.03f);
   std::vector<float> u, v;
   for (int i = 0; i < 4096; ++i) {
-    u.push_back(i % 4 == 0 ? near(random) : i % 4 == 1 ? 1 - near(random) : place(random));
-    v.push_back(i % 8 < 2 ? near(random) : i % 8 < 4 ? 1 - near(random) : place(random));
+    u.push_back(i % 4 == 0 ? near(random) : i % 4 == 1 ? 1 - near(random) : position(random));
+    v.push_back(i % 8 < 2 ? near(random) : i % 8 < 4 ? 1 - near(random) : position(random));
   }
   double before = 1;
   for (const int height : {8, 16, 32, 64}) {

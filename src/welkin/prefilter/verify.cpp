@@ -121,6 +121,11 @@ double energy_of(const std::vector<double>& integral, const std::vector<double>&
   return 1 + farthest;
 }
 
+PrefilterOptions without_borders(PrefilterOptions options) {
+  options.borders = false;
+  return options;
+}
+
 /// A map of the source's shape that is 1 where it shows anything.
 Map furnace_source(const Map& source) {
   Map map(source.parameterization, source.width(), source.height(), 1);
@@ -132,7 +137,7 @@ Map furnace_source(const Map& source) {
   return map;
 }
 
-/// Largest |value − 1| of texels that are places of the map.
+/// Largest |value − 1| of valid texels.
 double furnace_of_whole_world(const Map& level, double one) {
   double largest = 0;
   std::vector<float> omega(static_cast<std::size_t>(level.width()));
@@ -171,7 +176,8 @@ class Verifier {
         levels_(maps),
         options_(options),
         furnace_plan_({source.parameterization, {source.width(), source.height()}, 1},
-                      maps.front().parameterization, {levels.begin(), levels.end()}, options.prefilter),
+                      maps.front().parameterization, {levels.begin(), levels.end()},
+                      without_borders(options.prefilter)),
         reference_(source) {
     const std::vector<Vec3d> lights = brightest_lights(source, kLights);
     for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -255,10 +261,10 @@ class Verifier {
 void check_verifiable(const PrefilterShape& source) {
   const std::int64_t texels =
       std::int64_t{source.parameterization.charts()} * source.size.width * source.size.height;
-  if (texels <= kMostVerifiedTexels) return;
+  if (texels <= kMaxVerifiedTexels) return;
   throw Error(ErrorKind::too_large,
               "verify: " + std::to_string(texels) + " texels of source are more than the " +
-                  std::to_string(kMostVerifiedTexels) + " that the reference has memory for");
+                  std::to_string(kMaxVerifiedTexels) + " that the reference has memory for");
 }
 
 std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,

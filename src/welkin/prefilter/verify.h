@@ -7,7 +7,7 @@
 
 #include "welkin/prefilter/prefilter.h"
 
-/// What pre-filtered levels are worth: measured, not promised.
+/// Measures pre-filtered levels against brute force.
 namespace welkin {
 
 struct VerifyOptions {
@@ -37,7 +37,7 @@ struct ReferenceErrors {
 };
 
 struct LevelVerification {
-  /// None of a mirror's level, which is the source at other places, not a sum with a lobe.
+  /// None of a mirror's level, which is the source at other positions, not a sum with a lobe.
   std::optional<ReferenceErrors> reference;
   /// ∫ level dω / ∫ source dω, of the channel where it is farthest from 1; as 1 + difference / ∫ |source| dω,
   /// which is the same where nothing is negative, and 1 where there is no light. A level has too few texels
@@ -50,12 +50,12 @@ struct LevelVerification {
 };
 
 /// Sources with more texels are refused: the reference would need over 13 GB.
-inline constexpr std::int64_t kMostVerifiedTexels = std::int64_t{1} << 26;
+inline constexpr std::int64_t kMaxVerifiedTexels = std::int64_t{1} << 26;
 
 /// Holds maps, as PrefilterPlan::run made them of `source`, one for each of `levels`, to the definition:
 /// brute force with PrefilterMethod::lobe. The same numbers whatever the number of threads, and for the same
 /// seed. Takes some 3 ms for every texel compared and half a million texels of source, and core. Throws
-/// Error: a source of over kMostVerifiedTexels, and as PrefilterPlan does; Cancelled.
+/// Error: a source of over kMaxVerifiedTexels, and as PrefilterPlan does; Cancelled.
 std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
                                                 std::span<const PrefilterLevel> levels,
                                                 const VerifyOptions& options = {});

@@ -10,7 +10,7 @@
 namespace welkin::prefilter {
 namespace {
 
-constexpr int kLeastRows = 256, kMostRows = 512;
+constexpr int kMinRows = 256, kMaxRows = 512;
 
 /// Sums value(texel's value)·Ω of each channel, in an order that depends on the size alone.
 template <class Value>
@@ -26,7 +26,7 @@ std::vector<double> sum_texels(const Map& map, const Value& value) {
           summed_solid_angles(map.parameterization, {map.width(), map.height()}, chart, y);
       const float* texel = map.level.chart(chart).row(y);
       for (const double each : omega) {
-        // What isn't a place of the map may hold anything.
+        // Texels that aren't valid may hold anything.
         if (each > 0) {
           for (std::size_t c = 0; c < channels; ++c) {
             sum[c] += value(static_cast<double>(texel[c])) * each;
@@ -62,8 +62,8 @@ std::vector<double> grid_integral(const Map& map) {
 
 std::optional<int> energy_rows(const lobe::AnyLobe& lobe) {
   const double rows = 2 * std::ceil(8 / lobe.width());
-  if (lobe.mirror() || rows > kMostRows) return std::nullopt;
-  return std::max(static_cast<int>(rows), kLeastRows);
+  if (lobe.mirror() || rows > kMaxRows) return std::nullopt;
+  return std::max(static_cast<int>(rows), kMinRows);
 }
 
 std::vector<double> fejer_weights(int rows) {
@@ -97,6 +97,7 @@ std::vector<std::optional<std::vector<double>>> integrals_of_levels(const Map& s
   const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
   PrefilterOptions prefilter = options.prefilter;
   prefilter.scale = LobeScale::average;
+  prefilter.borders = false;
 
   // Lobes for a lat-long grid: all at once.
   prefilter.orientation = energy_grid_orientation();

@@ -93,10 +93,10 @@ std::vector<Texel> hot_texels(const Map& level, const std::vector<Vec3d>& lights
   for (const Vec3d& light : lights) {
     const Vec3d d = level.orientation * light;
     if (!level.parameterization.covers(d)) continue;
-    const auto place = level.parameterization.from_sphere(d);
-    const Texel texel{static_cast<int>(place.chart),
-                      std::clamp(static_cast<int>(place.u * level.width()), 0, level.width() - 1),
-                      std::clamp(static_cast<int>(place.v * level.height()), 0, level.height() - 1)};
+    const auto position = level.parameterization.from_sphere(d);
+    const Texel texel{static_cast<int>(position.chart),
+                      std::clamp(static_cast<int>(position.u * level.width()), 0, level.width() - 1),
+                      std::clamp(static_cast<int>(position.v * level.height()), 0, level.height() - 1)};
     if (is_place(level, texel)) texels.insert(texel);
   }
   return {texels.begin(), texels.end()};

@@ -12,8 +12,7 @@ struct Texel {
   friend auto operator<=>(const Texel&, const Texel&) = default;
 };
 
-/// `count` texels of the level, all of them where it has no more. Only texels whose centre is a place of the
-/// map.
+/// `count` texels of the level, all of them where it has no more. Only texels whose centre is valid.
 std::vector<Texel> random_texels(const Map& level, int count, std::uint64_t seed);
 
 /// See VerifyOptions; `lights` are directions of the world. None twice.

@@ -14,10 +14,10 @@ namespace {
 /// −ln of the coefficient that a lobe may have at most at the degree of the texels.
 constexpr double kDecay = 1.25;
 
-constexpr int kMostDegree = 32768;
+constexpr int kMaxDegree = 32768;
 
 /// Σ (2l + 1) λ_l P_l(1 − s) / 4π for each s. Eight at a time.
-std::vector<double> series(const std::vector<double>& zonal, const std::vector<double>& places) {
+std::vector<double> series(const std::vector<double>& zonal, const std::vector<double>& positions) {
   std::vector<double> keep, bend, terms;
   for (std::size_t l = 0; l < zonal.size(); ++l) {
     const double n = static_cast<double>(l);
@@ -25,12 +25,12 @@ std::vector<double> series(const std::vector<double>& zonal, const std::vector<d
     bend.push_back((2 * n + 1) / (n + 1));
     terms.push_back((2 * n + 1) * zonal[l] / (4 * kPi));
   }
-  std::vector<double> sums(places.size());
-  for (std::size_t first = 0; first < places.size(); first += 8) {
-    const std::size_t count = std::min<std::size_t>(8, places.size() - first);
+  std::vector<double> sums(positions.size());
+  for (std::size_t first = 0; first < positions.size(); first += 8) {
+    const std::size_t count = std::min<std::size_t>(8, positions.size() - first);
     double s[8] = {}, p[8], difference[8] = {}, sum[8] = {};
     std::fill_n(p, 8, 1.0);
-    std::copy_n(&places[first], count, s);
+    std::copy_n(&positions[first], count, s);
     // D_l = P_l − P_(l−1): (l+1) D_(l+1) = l D_l − (2l+1) s P_l keeps the precision of a small s.
     for (std::size_t l = 0; l < terms.size(); ++l) {
       for (int i = 0; i < 8; ++i) {
@@ -59,8 +59,8 @@ int degree_of(const std::vector<double>& zonal, double tolerance) {
 }
 
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
-  const int finest = std::clamp(static_cast<int>(kPi / texel), 1, kMostDegree / 4);
-  const int most = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMostDegree);
+  const int finest = std::clamp(static_cast<int>(kPi / texel), 1, kMaxDegree / 4);
+  const int most = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMaxDegree);
   int known = std::min(most, 4 * finest + 192);
   std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
   // A lobe with a step or a kink falls off slowly: as many degrees as show it to matter no more, or as many

@@ -25,7 +25,7 @@ struct WidenedLobe {
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance);
 
 /// Degrees that are cheap: up to here coefficients are kept that matter twenty times less, since a cut at the
-/// horizon falls off slowly and bright lights tell in dim places.
+/// horizon falls off slowly and bright lights tell in dim directions.
 inline constexpr int kCheapDegree = 160;
 
 /// The least degree for which what is left out of the lobe is, in the mean square over the sphere, a

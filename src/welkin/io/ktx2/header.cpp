@@ -93,8 +93,8 @@ void parse_shape(const Fields& fields, const Source& source, Header& header) {
   header.asks_for_levels = stated == 0;
   header.levels.resize(std::max(stated, 1u));
   const std::uint64_t pictures = std::uint64_t{std::max(layers, 1u)} * faces * header.levels.size();
-  if (pictures > kMostPictures) {
-    fields.fail(std::to_string(pictures) + " pictures, more than " + std::to_string(kMostPictures),
+  if (pictures > kMaxPictures) {
+    fields.fail(std::to_string(pictures) + " pictures, more than " + std::to_string(kMaxPictures),
                 at::layers);
   }
   header.layers = static_cast<int>(layers);

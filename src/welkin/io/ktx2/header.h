@@ -61,7 +61,7 @@ struct Header {
 inline constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
 /// More pictures in a file, over all levels, layers and faces, are refused.
-inline constexpr std::uint64_t kMostPictures = 1 << 16;
+inline constexpr std::uint64_t kMaxPictures = 1 << 16;
 
 bool is_ktx2(std::span<const std::byte> bytes);
 

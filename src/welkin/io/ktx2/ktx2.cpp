@@ -110,7 +110,7 @@ class Ktx2Reader final : public Reader {
     const std::lock_guard lock(mutex_);
     if (kept_ != nullptr && kept_level_ == level) return kept_;
     kept_.reset();
-    auto buffer = std::make_shared<Buffer>(Buffer::of_size(header_.levels[level].unpacked_bytes));
+    auto buffer = std::make_shared<Buffer>(header_.levels[level].unpacked_bytes);
     try {
       unpack(header_.scheme, section(header_.levels[level].stored), buffer->bytes());
     } catch (const Error& error) {

@@ -4,6 +4,7 @@
 #include <zstd.h>
 
 #include <cassert>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -35,11 +36,11 @@ Buffer pack_zstd(std::span<const std::byte> bytes) {
   const std::unique_ptr<ZSTD_CCtx, Free> packer(ZSTD_createCCtx());
   if (packer == nullptr) throw std::bad_alloc();
   ZSTD_CCtx_setParameter(packer.get(), ZSTD_c_checksumFlag, 1);
-  Buffer packed = Buffer::of_size(ZSTD_compressBound(bytes.size()));
+  Buffer packed(ZSTD_compressBound(bytes.size()));
   const std::size_t size =
-      ZSTD_compress2(packer.get(), packed.data.get(), packed.size, bytes.data(), bytes.size());
-  if (ZSTD_isError(size)) throw Error(ErrorKind::damaged, std::string("zstd: ") + ZSTD_getErrorName(size));
-  packed.size = size;
+      ZSTD_compress2(packer.get(), packed.bytes().data(), packed.bytes().size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(size)) throw Error(ErrorKind::system, std::string("zstd: ") + ZSTD_getErrorName(size));
+  packed.shrink(size);
   return packed;
 }
 

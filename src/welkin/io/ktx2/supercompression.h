@@ -1,24 +1,28 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
 
+#include "welkin/base/large_memory.h"
 #include "welkin/io/ktx2/header.h"
 
 /// The compressions of whole levels: Zstandard (RFC 8878) and zlib (RFC 1950).
 namespace welkin::io::ktx2 {
 
 /// Memory that is not cleared first.
-struct Buffer {
-  std::unique_ptr<std::byte[]> data;
-  std::size_t size = 0;
-
-  static Buffer of_size(std::size_t size) {
-    return {std::make_unique_for_overwrite<std::byte[]>(size), size};
+class Buffer {
+ public:
+  explicit Buffer(std::size_t bytes = 0) : size_(bytes) {
+    if (bytes > 0) memory_ = LargeMemory(bytes, LargeMemory::Contents::unset);
   }
-  std::span<std::byte> bytes() { return {data.get(), size}; }
-  std::span<const std::byte> bytes() const { return {data.get(), size}; }
+  /// Keeps the first `bytes` of it.
+  void shrink(std::size_t bytes) { size_ = bytes; }
+  std::span<std::byte> bytes() { return {memory_.data(), size_}; }
+  std::span<const std::byte> bytes() const { return {memory_.data(), size_}; }
+
+ private:
+  LargeMemory memory_;
+  std::size_t size_ = 0;
 };
 
 /// One frame, with a checksum.

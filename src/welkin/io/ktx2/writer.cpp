@@ -40,9 +40,9 @@ class Pictures {
     header.layers = layers == 1 ? 0 : layers;
     const auto pictures = static_cast<std::uint64_t>(levels) * static_cast<std::uint64_t>(layers) *
                           static_cast<std::uint64_t>(header.faces);
-    if (pictures > kMostPictures)
+    if (pictures > kMaxPictures)
       throw Error(ErrorKind::too_large,
-                  std::to_string(pictures) + " pictures, more than " + std::to_string(kMostPictures));
+                  std::to_string(pictures) + " pictures, more than " + std::to_string(kMaxPictures));
     header.levels.resize(static_cast<std::size_t>(levels));
     place(parts, header);
     check_sizes(header);
@@ -197,19 +197,19 @@ class Writer {
   WriteReport write_plain(ByteSink& file) {
     for (Level& level : header_.levels) level.stored.bytes = level.unpacked_bytes;
     write_head(file);
-    constexpr std::size_t kBatchBytes = std::size_t{4} << 20;
+    constexpr std::size_t kBatchBytes = std::size_t{1} << 20;
     const std::size_t largest_row = row_bytes(0);
     const std::size_t whole =
         static_cast<std::size_t>(std::min<std::uint64_t>(kBatchBytes, header_.levels[0].unpacked_bytes));
-    const Buffer batch = Buffer::of_size(std::max(largest_row, whole));
+    Buffer batch(std::max(largest_row, whole));
     WriteReport report;
     for (std::size_t level = header_.levels.size(); level-- > 0;) {
       pad_to(file, header_.levels[level].stored.offset);
       const std::size_t count = rows(level),
-                        at_once = std::max<std::size_t>(1, batch.size / row_bytes(level));
+                        at_once = std::max<std::size_t>(1, batch.bytes().size() / row_bytes(level));
       for (std::size_t first = 0; first < count; first += at_once) {
         const std::size_t end = std::min(count, first + at_once);
-        report = report + encode_rows(level, first, end, batch.data.get());
+        report = report + encode_rows(level, first, end, batch.bytes().data());
         file.write(batch.bytes().first((end - first) * row_bytes(level)));
       }
     }
@@ -223,15 +223,15 @@ class Writer {
         tbb::blocked_range<std::size_t>(0, packed.size(), 1),
         [&](const tbb::blocked_range<std::size_t>& levels) {
           for (std::size_t level = levels.begin(); level < levels.end(); ++level) {
-            Buffer texels = Buffer::of_size(header_.levels[level].unpacked_bytes);
-            reports[level] = encode_rows(level, 0, rows(level), texels.data.get());
+            Buffer texels(header_.levels[level].unpacked_bytes);
+            reports[level] = encode_rows(level, 0, rows(level), texels.bytes().data());
             packed[level] = pack_zstd(texels.bytes());
           }
         },
         tbb::simple_partitioner());
     WriteReport report;
     for (std::size_t level = 0; level < packed.size(); ++level) {
-      header_.levels[level].stored.bytes = packed[level].size;
+      header_.levels[level].stored.bytes = packed[level].bytes().size();
       report = report + reports[level];
     }
     write_head(file);

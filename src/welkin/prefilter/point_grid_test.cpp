@@ -1,10 +1,11 @@
-#include "welkin/prefilter/moments.h"
+#include "welkin/prefilter/point_grid.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <limits>
 
+#include "welkin/base/error.h"
 #include "welkin/map/map_cases.h"
 
 namespace welkin::prefilter {
@@ -14,7 +15,7 @@ using namespace cases;
 using sphere::AnyParameterization;
 
 /// Gauss's rule of four points in 0 … 1.
-constexpr double kPlaces[4] = {0.0694318442029737, 0.330009478207572, 0.669990521792428, 0.930568155797026};
+constexpr double kNodes[4] = {0.0694318442029737, 0.330009478207572, 0.669990521792428, 0.930568155797026};
 constexpr double kWeights[4] = {0.173927422568727, 0.326072577431273, 0.326072577431273, 0.173927422568727};
 
 /// ∫ f over one texel, by parts² · 4² points.
@@ -22,8 +23,8 @@ double texel_integral(const Map& map, int chart, int x, int y, int parts, const 
   double sum = 0;
   for (int k = 0; k < 16 * parts * parts; ++k) {
     const int i = k % (4 * parts), j = k / (4 * parts);
-    const double u = (x + (i / 4 + kPlaces[i % 4]) / parts) / map.width();
-    const double v = (y + (j / 4 + kPlaces[j % 4]) / parts) / map.height();
+    const double u = (x + (i / 4 + kNodes[i % 4]) / parts) / map.width();
+    const double v = (y + (j / 4 + kNodes[j % 4]) / parts) / map.height();
     sum += kWeights[i % 4] * kWeights[j % 4] * map.parameterization.solid_angle_density(chart, u, v) *
            f(map.parameterization.to_sphere(chart, u, v));
   }
@@ -55,32 +56,32 @@ Map noise(const AnyParameterization& p, int width, int height, int channels = 2)
   return map;
 }
 
-/// body(direction of column x + across, lane's mass, of channel c)
+/// body(direction of column x + across, lane's weight, of channel c)
 template <class Body>
-void for_each_mass(const Moments& moments, int channel, const Body& body) {
-  for (int y = 0; y < moments.height; ++y) {
-    const int north = std::min(y, moments.height - 1 - y), lane = north % 8 + (y == north ? 0 : 8);
-    const double theta = (y + 0.5) * kPi / moments.height;
-    for (int x = 0; x < moments.width; ++x) {
-      body(theta, x, static_cast<double>(moments.at(north / 8, channel)[x * 16 + lane]));
+void for_each_point(const PointGrid& points, int channel, const Body& body) {
+  for (int y = 0; y < points.height; ++y) {
+    const int north = std::min(y, points.height - 1 - y), lane = north % 8 + (y == north ? 0 : 8);
+    const double theta = (y + 0.5) * kPi / points.height;
+    for (int x = 0; x < points.width; ++x) {
+      body(theta, x, static_cast<double>(points.at(north / 8, channel)[x * 16 + lane]));
     }
   }
 }
 
-/// Σ masses · f, f averaged over a mass's column where masses are boxes.
-double moment(const Moments& moments, int channel, int parts, const Function& f) {
+/// Σ weights · f, f averaged over a point's column where points are boxes.
+double moment(const PointGrid& points, int channel, int parts, const Function& f) {
   double sum = 0;
-  for_each_mass(moments, channel, [&](double theta, int x, double mass) {
-    if (mass == 0) return;
+  for_each_point(points, channel, [&](double theta, int x, double weight) {
+    if (weight == 0) return;
     double value = 0;
-    for (int k = 0; k < (moments.boxes ? 4 * parts : 1); ++k) {
-      const double across = moments.boxes ? (k / 4 + kPlaces[k % 4]) / parts : 0.5;
-      const double longitude = 2 * kPi * (0.5 - (x + across) / moments.width);
+    for (int k = 0; k < (points.boxes ? 4 * parts : 1); ++k) {
+      const double across = points.boxes ? (k / 4 + kNodes[k % 4]) / parts : 0.5;
+      const double longitude = 2 * kPi * (0.5 - (x + across) / points.width);
       value +=
-          (moments.boxes ? kWeights[k % 4] / parts : 1) *
+          (points.boxes ? kWeights[k % 4] / parts : 1) *
           f({std::sin(theta) * std::sin(longitude), std::cos(theta), std::sin(theta) * std::cos(longitude)});
     }
-    sum += mass * value;
+    sum += weight * value;
   });
   return sum;
 }
@@ -122,17 +123,17 @@ std::vector<Shape> shapes() {
 
 /// Float sums: 2e-6. Where the density has a kink, as along the edges of an octahedron, this test's own
 /// quadrature misses more.
-TEST(Moments, MassesAddUpToTheMapsIntegral) {
+TEST(PointGrid, MassesAddUpToTheMapsIntegral) {
   for (const Shape& shape : shapes()) {
     const Map map = noise(AnyParameterization::make(shape.parameterization), shape.width, shape.height);
     const bool kinks = shape.parameterization.find("octahedral") != std::string::npos;
     const double whole[] = {integral(map, 0, 2, one), integral(map, 1, 2, one)};
     for (const int degree : {4, 70}) {
-      const MomentPlan plan(map.parameterization, {map.width(), map.height()}, degree);
-      const Moments moments = moments_of(map, plan, {});
-      EXPECT_GE(moments.height, degree + 2);
+      const PointGridPlan plan(map.parameterization, {map.width(), map.height()}, degree);
+      const PointGrid points = make_point_grid(map, plan, {});
+      EXPECT_GE(points.height, degree + 2);
       for (int c = 0; c < 2; ++c) {
-        EXPECT_NEAR(moment(moments, c, 1, one) / whole[c], 1,
+        EXPECT_NEAR(moment(points, c, 1, one) / whole[c], 1,
                     shape.width < 4 ? 3e-5
                     : kinks         ? 1e-4
                                     : 2e-6)
@@ -143,29 +144,29 @@ TEST(Moments, MassesAddUpToTheMapsIntegral) {
 }
 
 /// The channels of one map are the maps of one channel each.
-TEST(Moments, ChannelsAreIndependent) {
+TEST(PointGrid, ChannelsAreIndependent) {
   for (const Shape& shape : {Shape{"latlong", 24, 12}, Shape{"latlong", 6, 12}, Shape{"cube", 6, 6}}) {
     for (const int channels : {1, 4, 7}) {
       const Map map =
           noise(AnyParameterization::make(shape.parameterization), shape.width, shape.height, channels);
-      const MomentPlan plan(map.parameterization, {map.width(), map.height()}, 10);
-      const Moments together = moments_of(map, plan, {});
+      const PointGridPlan plan(map.parameterization, {map.width(), map.height()}, 10);
+      const PointGrid together = make_point_grid(map, plan, {});
       for (int c = 0; c < channels; ++c) {
         Map single(map.parameterization, map.width(), map.height(), 1);
         for_each_place(map, [&](int chart, int x, int y) {
           *single.level.chart(chart).at(x, y) = map.level.chart(chart).at(x, y)[c];
         });
-        const Moments alone = moments_of(single, plan, {});
-        std::vector<double> masses;
-        for_each_mass(alone, 0, [&](double, int, double mass) { masses.push_back(mass); });
+        const PointGrid alone = make_point_grid(single, plan, {});
+        std::vector<double> weights;
+        for_each_point(alone, 0, [&](double, int, double weight) { weights.push_back(weight); });
         std::size_t i = 0;
-        for_each_mass(together, c, [&](double, int, double mass) { EXPECT_EQ(mass, masses[i++]); });
+        for_each_point(together, c, [&](double, int, double weight) { EXPECT_EQ(weight, weights[i++]); });
       }
     }
   }
 }
 
-TEST(Moments, DependOnNothingButTheMap) {
+TEST(PointGrid, DependOnNothingButTheMap) {
   for (const Shape& shape : {Shape{"latlong", 64, 32}, Shape{"latlong", 16, 32}, Shape{"cube", 16, 16}}) {
     const Map map = noise(AnyParameterization::make(shape.parameterization), shape.width, shape.height);
     // Borders aren't read.
@@ -178,10 +179,10 @@ TEST(Moments, DependOnNothingButTheMap) {
         }
       }
     }
-    const MomentPlan plan(map.parameterization, {map.width(), map.height()}, 20);
-    const Moments many = moments_of(map, plan, {});
+    const PointGridPlan plan(map.parameterization, {map.width(), map.height()}, 20);
+    const PointGrid many = make_point_grid(map, plan, {});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const Moments single = moments_of(dirty, plan, {});
+    const PointGrid single = make_point_grid(dirty, plan, {});
     EXPECT_EQ(std::vector<float>(many.lanes.data(), many.lanes.data() + many.lanes.size()),
               std::vector<float>(single.lanes.data(), single.lanes.data() + single.lanes.size()));
   }
@@ -189,20 +190,21 @@ TEST(Moments, DependOnNothingButTheMap) {
 
 /// A texel at a disc's rim counts by what of it lies within: a constant picture measures as much as the map
 /// covers.
-TEST(Moments, DiscsMeasureWhatTheyCover) {
+TEST(PointGrid, DiscsMeasureWhatTheyCover) {
   for (const char* name : {"angular", "fisheye-equidistant", "half-cube", "paraboloid", "hemi-octahedral"}) {
     Map map = make_map(name, 32);
     render(map, [](const Vec3d&) { return 1; });
     for (const int degree : {5, 90}) {
-      const MomentPlan plan(map.parameterization, {map.width(), map.height()}, degree);
-      EXPECT_NEAR(moment(moments_of(map, plan, {}), 0, 1, one) / map.parameterization.coverage(), 1, 3e-5)
+      const PointGridPlan plan(map.parameterization, {map.width(), map.height()}, degree);
+      EXPECT_NEAR(moment(make_point_grid(map, plan, {}), 0, 1, one) / map.parameterization.coverage(), 1,
+                  3e-5)
           << name;
     }
   }
 }
 
-/// One lit texel at a pole, at the seam, and at both: its mass lies where it is.
-TEST(Moments, OneTexelLiesWhereItIs) {
+/// One lit texel at a pole, at the seam, and at both: its weight lies where it is.
+TEST(PointGrid, OneTexelLiesWhereItIs) {
   struct Case {
     Shape shape;
     int x, y;
@@ -216,50 +218,51 @@ TEST(Moments, OneTexelLiesWhereItIs) {
     for (int chart = 0; chart < p.charts(); ++chart) {
       Map map(p, each.shape.width, each.shape.height, 1);
       *map.level.chart(chart).at(each.x, each.y) = 1e30f;
-      const Moments moments = moments_of(map, MomentPlan(p, {map.width(), map.height()}, 16), {});
+      const PointGrid points = make_point_grid(map, PointGridPlan(p, {map.width(), map.height()}, 16), {});
       const double whole = 1e30 * texel_integral(map, chart, each.x, each.y, 4, one);
-      EXPECT_NEAR(moment(moments, 0, 1, one) / whole, 1, 1e-5);
+      EXPECT_NEAR(moment(points, 0, 1, one) / whole, 1, 1e-5);
       // Polynomials of degree one: the centroid.
       for (const Function& f :
            {Function([](const Vec3d& d) { return d.x; }), Function([](const Vec3d& d) { return d.y; }),
             Function([](const Vec3d& d) { return d.z; })}) {
         const double centroid = 1e30 * texel_integral(map, chart, each.x, each.y, 4, f) / whole;
-        EXPECT_NEAR(moment(moments, 0, 8, f) / whole, centroid, 1e-4)
+        EXPECT_NEAR(moment(points, 0, 8, f) / whole, centroid, 1e-4)
             << each.shape.parameterization << ' ' << chart;
       }
     }
   }
 }
 
-TEST(Moments, AreCancelled) {
+TEST(PointGrid, AreCancelled) {
   for (const char* name : {"latlong", "cube"}) {
     const Map map = make_map(name, 16);
     Monitor monitor;
     monitor.cancelled = [] { return true; };
-    const MomentPlan plan(map.parameterization, {map.width(), map.height()}, 16);
-    EXPECT_THROW(moments_of(map, plan, monitor), Cancelled);
+    const PointGridPlan plan(map.parameterization, {map.width(), map.height()}, 16);
+    EXPECT_THROW(make_point_grid(map, plan, monitor), Cancelled);
   }
 }
 
 /// A smooth lobe of the light that the degree resolves: e^(κ(cos θ − 1)), κ = degree²/18, whose coefficient
 /// there is about e^−9. Relative to its mean over all directions the polynomials' error is under 1e-4 where
 /// the grid is fine, else measured: up to 2e-3 along rows, 5e-3 texel by texel.
-TEST(Moments, SmoothFunctionsOfMassesAreThoseOfTexels) {
+TEST(PointGrid, SmoothFunctionsOfMassesAreThoseOfTexels) {
   for (const Shape& shape : shapes()) {
     const Map map = noise(AnyParameterization::make(shape.parameterization), shape.width, shape.height);
     const double whole = integral(map, 1, 1, one);
     for (const int degree : {4, 20, 70}) {
-      const MomentPlan plan(map.parameterization, {map.width(), map.height()}, degree);
-      const Moments moments = moments_of(map, plan, {});
+      const PointGridPlan plan(map.parameterization, {map.width(), map.height()}, degree);
+      const PointGrid points = make_point_grid(map, plan, {});
       const double kappa = degree * degree / 18.0;
       // Parts of a texel and of a box that are narrow beside the lobe.
       const int parts = 1 + degree / std::min(map.width(), 2 * map.height());
       const bool kinks = shape.parameterization.find("octahedral") != std::string::npos;
-      const double fine = kinks ? 5e-4 : 1e-4, coarse = plan.way == MomentPlan::Way::scatter ? 7e-3 : 3e-3;
+      const double fine = kinks ? 5e-4 : 1e-4,
+                   coarse = plan.way == PointGridPlan::Way::spread_texels ? 7e-3 : 3e-3;
       const Vec3d axis = degree == 20 ? Vec3d{0, 1, 0} : normalize(Vec3d{-0.3, -0.8, 0.4});
       const Function lobe = [&](const Vec3d& d) { return std::exp(kappa * (dot(d, axis) - 1)); };
       const double mean = whole / (2 * kappa);
-      EXPECT_NEAR(moment(moments, 1, 2 * parts, lobe) / mean, integral(map, 1, parts, lobe) / mean,
+      EXPECT_NEAR(moment(points, 1, 2 * parts, lobe) / mean, integral(map, 1, parts, lobe) / mean,
                   degree == 4 ? fine : coarse)
           << shape.parameterization << ' ' << shape.width << ' ' << degree;
     }

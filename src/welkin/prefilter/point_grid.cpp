@@ -1,4 +1,4 @@
-#include "welkin/prefilter/moments.h"
+#include "welkin/prefilter/point_grid.h"
 
 #include <algorithm>
 #include <cassert>
@@ -11,47 +11,31 @@
 #include "welkin/prefilter/fft.h"
 #include "welkin/prefilter/kernels.h"
 #include "welkin/prefilter/lagrange.h"
-#include "welkin/prefilter/scatter.h"
+#include "welkin/prefilter/spreading.h"
 
 namespace welkin::prefilter {
 namespace {
 
 using sphere::AnyParameterization;
 
-void spread(const Map& map, const MomentPlan& plan, Moments& moments, const Monitor& monitor) {
-  const RowSpread& down = plan.rows[0];
-  const ColumnSpread& along = plan.columns[0];
-  const ImageView<const float> chart = map.level.chart(0);
+void spread_rows(const Map& map, const PointGridPlan& plan, PointGrid& grid, const Monitor& monitor) {
   std::vector<float> shares;
-  if (moments.reduced) {
-    const int group = plan.rows_per_mass;
+  if (grid.reduced) {
+    const int group = plan.rows_per_point;
     for (int row = 0; row < map.height(); ++row) {
       const auto sine = [&](int y) { return std::sin((y + 0.5) * kPi / map.height()); };
       double sum = 0;
       for (int k = 0; k < group; ++k) sum += sine(row / group * group + k);
-      shares.push_back(static_cast<float>(sine(row) / (sum * along.columns)));
+      shares.push_back(static_cast<float>(sine(row) / (sum * plan.columns->columns)));
     }
   }
-  const SpreadRows rows{.texels = chart.data,
-                        .row_stride = chart.row_stride,
-                        .width = map.width(),
-                        .channels = map.channels(),
-                        .height = plan.height,
-                        .first = down.first.data(),
-                        .taps = down.taps.data(),
-                        .columns = along.columns,
-                        .along = along.along.data(),
-                        .along_count = static_cast<int>(along.along.size()),
-                        .reach = along.reach,
-                        .reduced = moments.reduced ? moments.reduced->level.chart(0).data : nullptr,
-                        .reduced_stride = moments.reduced ? moments.reduced->level.chart(0).row_stride : 0,
-                        .picture_height = map.height(),
-                        .shares = shares.data()};
+  const SpreadRows rows{map.level.chart(0), *plan.rows, *plan.columns,
+                        grid.reduced ? grid.reduced->level.chart(0) : ImageView<float>{}, shares};
   parallel_for(
-      moments.packs,
+      grid.packs,
       [&](int pack) {
         Buffer work(rows.work());
-        kernels().spread_rows(rows, pack, moments.at(pack, 0), work.data());
+        kernels().spread_rows(rows, pack, grid.at(pack, 0), work.data());
       },
       monitor);
 }
@@ -61,20 +45,20 @@ bool has_plain_rows(const AnyParameterization& source, ChartSize size) {
   return source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width);
 }
 
-/// So many rows tell well enough where a sun is for the dim places on whose horizon it stands, however wide
-/// the lobe.
+/// So many rows tell well enough where a sun is for the dim directions on whose horizon it stands, however
+/// wide the lobe.
 constexpr int kSunRows = 450;
 
-/// How many columns of the picture can be one of the masses', a power of two, so that `least` are left.
-int columns_per_mass(int width, int least) {
+/// How many columns of the picture can be one of the grid's, a power of two, so that `minimum` are left.
+int columns_per_point(int width, int minimum) {
   int columns = 1;
-  while (width % (4 * columns) == 0 && width / (2 * columns) >= least) columns *= 2;
+  while (width % (4 * columns) == 0 && width / (2 * columns) >= minimum) columns *= 2;
   return columns;
 }
 
 }  // namespace
 
-Moments::Moments(int w, int h, int n)
+PointGrid::PointGrid(int w, int h, int n)
     : width(w),
       height(h),
       channels(n),
@@ -174,59 +158,60 @@ ColumnSpread ColumnSpread::boxes() {
   return spread;
 }
 
-MomentPlan::MomentPlan(const AnyParameterization& source, ChartSize size, int degree) {
+PointGridPlan::PointGridPlan(const AnyParameterization& source, ChartSize size, int degree) {
   const double texel = mean_texel(source, size);
-  const int least = std::max(
+  const int minimum = std::max(
       {16, static_cast<int>(1.42 * degree), std::min(kSunRows, static_cast<int>(0.9 * kPi / texel))});
   // Columns far wider than what the lobes resolve are no boxes to be done along the row alone.
   if (!has_plain_rows(source, size) || (degree > size.width && size.height > size.width)) {
-    width = fft_length(std::max(2 * least + least / 4, 64));
+    width = fft_length(std::max(2 * minimum + minimum / 4, 64));
     height = width / 2;
     return;
   }
   // The picture's own rows and columns, or an even part of them, where they are enough.
   height = size.height;
-  while (height % 2 == 0 && height / 2 >= least) height /= 2;
-  if (height % 2 != 0 || height < least) height = (std::max(least, 16) + 1) / 2 * 2;
-  const int per_mass = columns_per_mass(size.width, 2 * least);
-  width = size.width / per_mass;
-  // Three points stand for a box within 1e-3 up to an order where they are 2.3/2 radians apart.
+  while (height % 2 == 0 && height / 2 >= minimum) height /= 2;
+  if (height % 2 != 0 || height < minimum) height = (std::max(minimum, 16) + 1) / 2 * 2;
+  const int per_point = columns_per_point(size.width, 2 * minimum);
+  width = size.width / per_point;
+  // Three points differ from a box by φ⁴/339 at a phase of φ to a column: up to 2.3 at the last order, where
+  // the lobe has least.
   way = degree <= 2.3 * width / (2 * kPi) ? Way::spread_points : Way::spread_boxes;
-  rows_per_mass = size.height % height == 0 ? size.height / height : 0;
-  rows.emplace_back(size.width, size.height, height);
-  // Boxes are columns of the picture: masses of several resolve more orders than the degree.
-  assert(way == Way::spread_points || per_mass == 1);
-  columns.push_back(way == Way::spread_boxes ? ColumnSpread::boxes() : ColumnSpread(per_mass));
+  rows_per_point = size.height % height == 0 ? size.height / height : 0;
+  rows.emplace(size.width, size.height, height);
+  // Boxes are columns of the picture: points of several resolve more orders than the degree.
+  assert(way == Way::spread_points || per_point == 1);
+  columns = way == Way::spread_boxes ? ColumnSpread::boxes() : ColumnSpread(per_point);
 }
 
-MomentPlan MomentPlan::with_rows(const AnyParameterization& source, ChartSize size, int count) {
-  MomentPlan plan;
+PointGridPlan PointGridPlan::with_rows(const AnyParameterization& source, ChartSize size, int count) {
+  PointGridPlan plan;
   plan.height = count;
   if (!has_plain_rows(source, size) || size.height > size.width) {
     plan.width = fft_length(2 * count);
     return plan;
   }
-  const int per_mass = columns_per_mass(size.width, 3 * count);
-  plan.width = size.width / per_mass;
-  plan.way = per_mass > 1 ? Way::spread_points : Way::spread_boxes;
-  plan.rows.emplace_back(size.width, size.height, count);
-  plan.columns.push_back(per_mass > 1 ? ColumnSpread(per_mass) : ColumnSpread::boxes());
+  const int per_point = columns_per_point(size.width, 3 * count);
+  plan.width = size.width / per_point;
+  plan.way = per_point > 1 ? Way::spread_points : Way::spread_boxes;
+  plan.rows.emplace(size.width, size.height, count);
+  plan.columns = per_point > 1 ? ColumnSpread(per_point) : ColumnSpread::boxes();
   return plan;
 }
 
-Moments moments_of(const Map& map, const MomentPlan& plan, const Monitor& monitor) {
-  Moments moments(plan.width, plan.height, map.channels());
-  moments.boxes = plan.way == MomentPlan::Way::spread_boxes;
+PointGrid make_point_grid(const Map& map, const PointGridPlan& plan, const Monitor& monitor) {
+  PointGrid grid(plan.width, plan.height, map.channels());
+  grid.boxes = plan.way == PointGridPlan::Way::spread_boxes;
   if (plan.reduced) {
-    moments.reduced.emplace(map.parameterization, plan.width, plan.height, map.channels());
-    moments.reduced->orientation = map.orientation;
+    grid.reduced.emplace(map.parameterization, plan.width, plan.height, map.channels());
+    grid.reduced->orientation = map.orientation;
   }
-  if (plan.way == MomentPlan::Way::scatter) {
-    scatter_texels(map, moments, monitor);
+  if (plan.way == PointGridPlan::Way::spread_texels) {
+    spread_texels(map, grid, monitor);
   } else {
-    spread(map, plan, moments, monitor);
+    spread_rows(map, plan, grid, monitor);
   }
-  return moments;
+  return grid;
 }
 
 }  // namespace welkin::prefilter

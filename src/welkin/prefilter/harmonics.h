@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "welkin/prefilter/fft.h"
+#include "welkin/prefilter/legendre.h"
+#include "welkin/prefilter/point_grid.h"
+#include "welkin/prefilter/prefilter.h"
+#include "welkin/prefilter/sampled_lobe.h"
+#include "welkin/prefilter/widen.h"
+
+/// Levels by spherical harmonics: analysis of the weighted points, coefficients times the lobe's, synthesis
+/// on a lat-long grid that texels read by a spline. Internal to prefilter.
+namespace welkin::prefilter {
+
+/// Factors of the orders 0 … last of a grid's rows: the transform of a box where points are boxes, else 1.
+std::vector<float> order_factors(const PointGridPlan& points, int last);
+
+/// For each order 0 … last cos, sin of the phase between the first columns of two grids, `points_width` and
+/// `grid_width` columns around; times the B-spline's transform along the row and the 6 of to_spline_columns.
+std::vector<float> phases(int last, int grid_width, int points_width);
+
+/// What all levels share: from weighted points to coefficients.
+struct HarmonicAnalysis {
+  HarmonicAnalysis(const PrefilterShape& source, int degree);
+
+  int degree;
+  PointGridPlan points;
+  FftPlan fft;
+  Latitudes latitudes;
+  std::vector<float> factors;  ///< see order_factors
+  std::vector<Recurrence> recurrences;
+};
+
+/// One level: from coefficients to a grid.
+struct HarmonicLevel {
+  /// `zonal`: of all of the lobe, or of its far part.
+  HarmonicLevel(const WidenedLobe& lobe, const std::vector<double>& zonal, int index, int points_width);
+
+  int index;  ///< of the level
+  int degree;
+  ChartSize grid;
+  FftPlan fft;
+  Latitudes latitudes;
+  std::vector<float> zonal;   ///< λ_l
+  std::vector<float> phases;  ///< see phases()
+  lobe::AnyLobe lobe;
+  bool all = false;  ///< harmonics of all points, the bright ones too: a far part, or a smooth lobe
+  std::optional<SampledLobe> sampled;  ///< of a widened lobe
+  double scale;                        ///< of a weight, so that the lobe's integral is 1
+};
+
+struct HarmonicResults {
+  std::vector<Map> levels;     ///< in the order of Tables::harmonic, borders not filled
+  std::optional<Map> reduced;  ///< PointGrid::reduced
+};
+
+/// The levels of `tables.harmonic`, near parts included. Throws Cancelled, and Error for values that can't be
+/// added up.
+HarmonicResults run_harmonics(const PrefilterPlan::Tables& tables, const Map& source, const Monitor& monitor);
+
+}  // namespace welkin::prefilter

@@ -1,0 +1,86 @@
+#include "welkin/prefilter/prefilter.h"
+
+#include <optional>
+
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
+#include "welkin/filter/resample.h"
+#include "welkin/map/adjust.h"
+#include "welkin/map/borders.h"
+#include "welkin/map/texel_points.h"
+#include "welkin/prefilter/plan.h"
+#include "welkin/prefilter/source_faults.h"
+#include "welkin/prefilter/spline_grid.h"
+
+namespace welkin {
+namespace {
+
+using namespace prefilter;
+
+/// Throws for what can't be convolved.
+void check_values(const Map& source, const Monitor& monitor) {
+  const SourceFaults faults = faults_of(source, without_progress(monitor));
+  if (faults.not_finite + faults.excessive > 0)
+    throw Error(ErrorKind::bad_value,
+                "prefilter: the map has values that are NaN, infinite, or beyond ±1e30");
+}
+
+/// See PrefilterOptions::mirror_filter.
+Filter mirror_filter(const PrefilterOptions& options, const Map& from,
+                     const sphere::AnyParameterization& target, ChartSize size) {
+  if (options.mirror_filter != Filter::automatic) return options.mirror_filter;
+  const double source = mean_texel(from.parameterization, {from.width(), from.height()});
+  return mean_texel(target, size) < 1.5 * source ? Filter::bilinear : Filter::automatic;
+}
+
+}  // namespace
+
+Map PrefilterPlan::Tables::result(std::size_t level, const Map& map) const {
+  const auto [width, height] = levels[level].size;
+  Map made(target.at_size(width, height), width, height, map.channels(),
+           options.borders ? PixelContents::unset : PixelContents::zero);
+  made.channel_names = map.channel_names;
+  made.orientation = options.orientation;
+  return made;
+}
+
+std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) const {
+  const Tables& t = *tables_;
+  if (!(source.parameterization == t.source.parameterization) || source.width() != t.source.size.width ||
+      source.height() != t.source.size.height || source.channels() != t.source.channels) {
+    throw Error(ErrorKind::mismatch, "prefilter: the map has another shape than the plan was made for");
+  }
+  HarmonicResults harmonic;
+  if (t.harmonic.empty()) {
+    check_values(source, monitor);
+  } else {
+    harmonic = run_harmonics(t, source, monitor);
+  }
+  if (harmonic.reduced) fill_latlong_border(harmonic.reduced->level);
+  std::vector<Map> results;
+  auto next = harmonic.levels.begin();
+  for (std::size_t i = 0; i < t.levels.size(); ++i) {
+    if (!t.levels[i].lobe.mirror()) {
+      Map& map = results.emplace_back(std::move(*next++));
+      if (t.options.scale == LobeScale::integral) scale(map, static_cast<float>(t.levels[i].lobe.integral()));
+    } else {
+      Map& map = results.emplace_back(t.result(i, source));
+      const Map& from = harmonic.reduced && t.methods[i].reduced ? *harmonic.reduced : source;
+      ResampleOptions how;
+      how.filter = mirror_filter(t.options, from, map.parameterization, t.levels[i].size);
+      how.monitor = without_progress(monitor);
+      resample(from, map, how);
+    }
+    if (t.options.borders) fill_borders(results.back());
+  }
+  return results;
+}
+
+std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
+                               std::vector<PrefilterLevel> levels, const PrefilterOptions& options,
+                               const Monitor& monitor) {
+  const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
+  return PrefilterPlan(shape, target, std::move(levels), options).run(source, monitor);
+}
+
+}  // namespace welkin
