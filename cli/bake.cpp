@@ -11,7 +11,6 @@
 #include "progress.h"
 #include "welkin/base/number_text.h"
 #include "welkin/map/adjust.h"
-#include "welkin/map/borders.h"
 #include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
@@ -84,45 +83,46 @@ void Bake::run() {
   // Everything that can be wrong with the request, before any file is touched.
   read.parse();
   const WriteMapOptions write_options = parse_write();
-  PrefilterOptions options = parse_options();
-  Matrix3 turn, orientation;
+  const PrefilterOptions prefilter = parse_options();
+  Matrix3 turn;
   if (!rotation.empty()) turn = parse_rotation("--rotate", rotation);
   made.parse(out, write);
-  const sphere::AnyParameterization& target = made.shape->parameterization;
+  BakeOptions& options = made.options;
+  options.prefilter = prefilter;
+  options.prefilter.borders = write.border > 0;
+  // Channels that were named are all wanted.
+  options.keep_alpha = !read.channels.empty();
   if (!convention.empty()) {
-    orientation = parse_option("--convention",
-                               [&] { return orientation_for(convention_from_name(convention), target); });
+    options.prefilter.orientation = parse_option(
+        "--convention", [&] { return orientation_for(convention_from_name(convention), options.target); });
   }
-  // The turn is in the texels; the file says its convention alone.
-  options.orientation = orientation * turn;
-  made.notes.normalisation = options.scale == LobeScale::integral ? "integral" : "radiance";
 
-  BakeReport report{in, out, &made, options, {}, {}};
+  BakeReport report{in, out, &made, bake_notes(options), {}, {}};
   Clock clock;
-  const Map source = read_bake_source(in, read, sanitize ? Faults::mended : Faults::refused);
+  Map source = read_bake_source(in, read, sanitize ? Faults::repaired : Faults::refused);
+  turn_world(source, turn);
+  if (!options.keep_alpha && source.channel_names == default_channel_names(4)) source = without_alpha(source);
   const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
   if (!verify.empty()) check_verifiable(shape);
   report.read_seconds = clock.lap();
-  const PrefilterPlan plan(shape, target, made.levels, options);
+  const BakePlan plan(shape, options);
   report.methods = plan.methods();
   report.plan_seconds = clock.lap();
-  Chain chain{plan.run(source, progress_monitor("bake")), made.notes};
+  Chain chain = plan.run(source, progress_monitor("bake"));
   end_progress();
   report.compute_seconds = clock.lap();
 
   if (!verify.empty()) {
     VerifyOptions verify_options;
-    verify_options.prefilter = options;
+    verify_options.prefilter = options.prefilter;
     verify_options.random_texels = std::stoi(verify);
     verify_options.monitor = progress_monitor("verify");
     report.verification = verify_prefilter(source, chain.levels, made.levels, verify_options);
     end_progress();
     report.verify_seconds = clock.lap();
   }
-  for (Map& level : chain.levels) {
-    level.orientation = orientation;
-    if (exposure != 0) scale(level, static_cast<float>(std::exp2(exposure)));
-    if (write.border > 0) fill_borders(level);
+  if (exposure != 0) {
+    for (Map& level : chain.levels) scale(level, static_cast<float>(std::exp2(exposure)));
   }
   report_losses(out, write_chain(out, chain, made.shape->layout, write_options));
   report.write_seconds = clock.lap();

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "command.h"
-#include "welkin/lobe/roughness_curve.h"
-#include "welkin/prefilter/prefilter.h"
+#include "welkin/prefilter/bake.h"
 
 namespace welkin::cli {
 
@@ -22,14 +21,12 @@ struct BakeLevels {
 
   // Known after parse().
   std::optional<MapShape> shape;
+  BakeOptions options;  ///< all but `prefilter`
   std::vector<PrefilterLevel> levels;
-  ChainNotes notes;
-  bool chain = false;
 
  private:
   /// Throws for what only a chain has.
   void check_one_lobe(const lobe::AnyLobe& lobe) const;
-  ChartSize default_size(const sphere::AnyParameterization& target, const lobe::AnyLobe& lobe) const;
 };
 
 }  // namespace welkin::cli

@@ -63,7 +63,7 @@ ordered_json json_of(const LevelVerification& v) {
 void BakeReport::print() const {
   const BakeLevels& m = *made;
   const std::size_t count = m.levels.size();
-  fmt::print("{}: {}, {} of {}, {} {}\n", printable(out), printable(m.notes.lobe), m.shape->text(),
+  fmt::print("{}: {}, {} of {}, {} {}\n", printable(out), printable(notes.lobe), m.shape->text(),
              size_text(m.levels.front().size), count, count == 1 ? "level" : "levels");
   fmt::print(
       "level  {}  roughness  {}", right("size", 11),
@@ -71,7 +71,7 @@ void BakeReport::print() const {
   fmt::print("\n");
   for (std::size_t i = 0; i < count; ++i) {
     const std::string roughness =
-        i < m.notes.roughness.size() ? fmt::format("{:.6g}", m.notes.roughness[i]) : "–";
+        i < notes.roughness.size() ? fmt::format("{:.6g}", notes.roughness[i]) : "–";
     const std::string method = method_text(methods[i]);
     fmt::print("{:>5}  {}  {}  {}", i, right(size_text(m.levels[i].size), 11), right(roughness, 9),
                verification.empty() ? method : left(method, 33));
@@ -96,17 +96,17 @@ void BakeReport::print_json() const {
   ordered_json report{
       {"in", in},
       {"out", out},
-      {"lobe", m.notes.lobe},
-      {"roughness_curve", m.notes.curve.empty() ? ordered_json() : ordered_json(m.notes.curve)},
-      {"normalisation", m.notes.normalisation},
+      {"lobe", notes.lobe},
+      {"roughness_curve", notes.curve.empty() ? ordered_json() : ordered_json(notes.curve)},
+      {"normalisation", notes.normalisation},
       {"parameterization", m.shape->text()},
-      {"tolerance", options.tolerance}};
+      {"tolerance", made->options.prefilter.tolerance}};
   for (std::size_t i = 0; i < m.levels.size(); ++i) {
     ordered_json level{{"level", i},
                        {"width", m.levels[i].size.width},
                        {"height", m.levels[i].size.height},
                        {"lobe", m.levels[i].lobe.spec()}};
-    if (i < m.notes.roughness.size()) level["roughness"] = m.notes.roughness[i];
+    if (i < notes.roughness.size()) level["roughness"] = notes.roughness[i];
     level["method"] = methods[i].name;
     if (methods[i].degree > 0) level["degree"] = methods[i].degree;
     if (methods[i].widened > 0) level["widened_radians"] = methods[i].widened;
@@ -122,9 +122,9 @@ void BakeReport::print_json() const {
 void BakeReport::report_misses() const {
   for (std::size_t i = 0; i < verification.size(); ++i) {
     const auto& reference = verification[i].reference;
-    if (!reference || reference->relative_rmse <= options.tolerance) continue;
+    if (!reference || reference->relative_rmse <= made->options.prefilter.tolerance) continue;
     tell(fmt::format("welkin: {}: level {}: the relative RMSE, {:.3g} %, is above the tolerance, {:g} %\n",
-                     out, i, 100 * reference->relative_rmse, 100 * options.tolerance));
+                     out, i, 100 * reference->relative_rmse, 100 * made->options.prefilter.tolerance));
   }
 }
 

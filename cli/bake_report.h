@@ -12,7 +12,7 @@ namespace welkin::cli {
 struct BakeReport {
   std::string in, out;
   const BakeLevels* made = nullptr;
-  PrefilterOptions options;
+  ChainNotes notes;
   std::vector<PrefilterMethod> methods;
   std::vector<LevelVerification> verification;  ///< empty, or one for each level
   double read_seconds = 0, plan_seconds = 0, compute_seconds = 0, verify_seconds = 0, write_seconds = 0;

@@ -8,7 +8,6 @@
 #include "progress.h"
 #include "welkin/filter/resample.h"
 #include "welkin/map/adjust.h"
-#include "welkin/map/borders.h"
 #include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
@@ -37,6 +36,7 @@ void Convert::run() const {
   ResampleOptions options;
   options.filter = parse_option("--filter", [&] { return filter_from_name(filter); });
   options.allow_ringing = allow_ringing;
+  options.borders = write.border > 0;
   if (!rotation.empty()) options.rotation = parse_rotation("--rotate", rotation);
   if (!fill.empty()) {
     for (double value : parse_numbers("--fill", fill)) options.fill.push_back(static_cast<float>(value));
@@ -60,7 +60,7 @@ void Convert::run() const {
   Chain chain;
   chain.notes = levels == 1 ? info.notes.of_level(first) : info.notes;
   ChartSize finest;
-  std::uint64_t mended = 0;
+  std::uint64_t repaired = 0;
   options.monitor = progress_monitor("convert");
   for (int level = 0; level < levels; ++level) {
     if (levels > 1) reader.set_level(level);
@@ -76,13 +76,12 @@ void Convert::run() const {
       check_output_levels(out, *shape, finest, levels, write);
     }
     if (sanitize) {
-      mended += welkin::sanitize(source);
-      fill_borders(source);
+      repaired += welkin::sanitize(source);
     }
     chain.levels.push_back(converted(source, shape->parameterization, chain_size(finest, level), options));
   }
   end_progress();
-  if (sanitize) tell(fmt::format("welkin: {}: {} texels with NaN or infinite values mended\n", in, mended));
+  if (sanitize) tell(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
   report_losses(out, write_chain(out, chain, shape->layout, write_options));
 }
 
@@ -111,7 +110,6 @@ Map Convert::converted(const Map& source, const sphere::AnyParameterization& par
   resample(source, target, options);
   const double factor = scale * std::exp2(exposure);
   if (factor != 1) welkin::scale(target, static_cast<float>(factor));
-  if (write.border > 0) fill_borders(target);
   return target;
 }
 

@@ -7,7 +7,8 @@
 
 #include "command.h"
 #include "progress.h"
-#include "version.h"
+#include "welkin/base/error.h"
+#include "welkin/base/version.h"
 #include "welkin/io/process.h"
 
 namespace {
@@ -45,7 +46,7 @@ std::string explain_extras(const CLI::App& app, const std::string& what) {
 
 int run(int argc, char** argv) {
   CLI::App app{"Environment maps: convert, bake, sample, measure.", "welkin"};
-  app.set_version_flag("--version", std::string("welkin ") + WELKIN_VERSION);
+  app.set_version_flag("--version", "welkin " + std::string(version()));
   app.require_subcommand(1);
   app.fallthrough();
   int threads = 0;

@@ -54,7 +54,7 @@ std::string full_spec(const lobe::AnyLobe& lobe) {
 
 Facts facts_of(const lobe::AnyLobe& lobe) {
   Facts facts{
-      full_spec(lobe), lobe.source(), lobe.mirror(), 0, 0, {}, zonal_coefficients(lobe, kPrintedDegree)};
+      full_spec(lobe), lobe.source(), lobe.is_mirror(), 0, 0, {}, zonal_coefficients(lobe, kPrintedDegree)};
   if (facts.mirror) return facts;
   facts.integral = lobe.integral();
   facts.width = lobe.width() * kDegrees;

@@ -1,34 +1,33 @@
 # Installs the library, its public headers, and what find_package(welkin) and pkg-config need.
 #
-# Public headers: every header of the rooms, save those that only their own room or its tests include:
-# kernels that need SIMD libraries (*_impl.h), what several source files share (*_job.h), cases for tests, the inside of the file
-# formats and of the built-in maps.
-# tests/install_test.sh compiles all that are installed.
+# src/welkin/public_headers.txt names the headers; tests/install_test.sh compiles all of them.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS welkin EXPORT welkin-targets
+set(libraries welkin)
+foreach(other welkin_static welkin_shared)
+  if(TARGET ${other} AND WELKIN_BUILD_BOTH)
+    string(REPLACE "welkin_" "" kind ${other})
+    set_target_properties(${other} PROPERTIES EXPORT_NAME ${kind})
+    list(APPEND libraries ${other})
+  endif()
+endforeach()
+install(TARGETS ${libraries} EXPORT welkin-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-set(include_destination ${CMAKE_INSTALL_INCLUDEDIR}/welkin)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/welkin/ DESTINATION ${include_destination}
-        FILES_MATCHING PATTERN "*.h"
-        PATTERN "*_impl.h" EXCLUDE
-        PATTERN "*_cases.h" EXCLUDE
-        PATTERN "*_job.h" EXCLUDE
-        PATTERN "*test*" EXCLUDE
-        REGEX "/src/welkin/(io|synth|image)$" EXCLUDE
-        REGEX "/lobe/(all|angle|blinn|charlie|ggx|kernels|lambert|panels|phong|table|table_file|table_points|von_mises_fisher)\\.h$" EXCLUDE
-        REGEX "/prefilter/(bright_points|buffer|fft|harmonics|kernels|lagrange|lanes|legendre|level_texels|near|near_field|plan|point_grid|sampled_lobe|spline_grid|spreading|widen)\\.h$" EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/io/image_file.h DESTINATION ${include_destination}/io)
-install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/synth/synth.h ${PROJECT_SOURCE_DIR}/src/welkin/synth/render_synth.h DESTINATION ${include_destination}/synth)
-install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/image/image.h DESTINATION ${include_destination}/image)
+set(header_list ${PROJECT_SOURCE_DIR}/src/welkin/public_headers.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header_list})
+file(STRINGS ${header_list} public_headers REGEX "^[a-z]")
+foreach(header IN LISTS public_headers)
+  cmake_path(GET header PARENT_PATH room)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/welkin/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/welkin/${room})
+endforeach()
 
 # find_package(welkin)
 set(package_destination ${CMAKE_INSTALL_LIBDIR}/cmake/welkin)
 get_target_property(library_type welkin TYPE)
-if(library_type STREQUAL "STATIC_LIBRARY")
+if(library_type STREQUAL "STATIC_LIBRARY" OR WELKIN_BUILD_BOTH)
   set(WELKIN_IS_STATIC ON)
 else()
   set(WELKIN_IS_STATIC OFF)
@@ -42,13 +41,13 @@ install(FILES ${PROJECT_BINARY_DIR}/welkin-config.cmake ${PROJECT_BINARY_DIR}/we
 install(EXPORT welkin-targets NAMESPACE welkin:: DESTINATION ${package_destination})
 
 # pkg-config. A static library makes its user link what it uses, so `pkg-config --libs` names it without `--static` too.
-set(link_only OpenEXR Imath libpng libjpeg libtiff-4 libwebp libdeflate libzstd zlib)
+set(link_only tbb OpenEXR Imath libpng libjpeg libtiff-4 libwebp libdeflate libzstd zlib)
 list(JOIN link_only " " link_only)
-set(pc_requires "tbb")
+set(pc_requires "")
 set(pc_libs "-L\${libdir} -lwelkin")
 set(pc_libs_private "")
 if(WELKIN_IS_STATIC)
-  string(APPEND pc_requires " ${link_only}")
+  set(pc_requires "${link_only}")
   set(pc_requires_private "")
   string(APPEND pc_libs " -pthread")
 else()

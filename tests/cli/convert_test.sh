@@ -121,7 +121,7 @@ for to in $("$welkin" list); do
   done
 done
 
-# NaN and infinity are counted, mended on request, and told of.
+# NaN and infinity are counted, repaired on request, and told of.
 bits() { printf "\\x${1:6:2}\\x${1:4:2}\\x${1:2:2}\\x${1:0:2}"; }
 {
   printf 'PF\n8 4\n-1.0\n'
@@ -133,10 +133,10 @@ bits() { printf "\\x${1:6:2}\\x${1:4:2}\\x${1:2:2}\\x${1:0:2}"; }
 near "NaN in R" "$(number nan <"$work/json")" 1 0
 near "infinities" "$(grep -oE '"infinite": [0-9]+' "$work/json" | grep -oE '[0-9]+' | tr '\n' ' ')" "1 1 0" 0
 checks=$((checks + 1))
-run convert wild.pfm mended.exr --sanitize
-((status == 0)) && grep -qE '^welkin: wild.pfm: 2 texels with NaN or infinite values mended$' "$work/messages" || fail "--sanitize: $(cat "$work/messages")"
+run convert wild.pfm repaired.exr --sanitize
+((status == 0)) && grep -qE '^welkin: wild.pfm: 2 texels with NaN or infinite values repaired$' "$work/messages" || fail "--sanitize: $(cat "$work/messages")"
 must synth constant white.exr --size 8
-same white.exr mended.exr 1e-6
+same white.exr repaired.exr 1e-6
 checks=$((checks + 1))
 run convert wild.pfm wild.png
 ((status == 0)) && grep -qE '^welkin: wild.png: [0-9]+ values were not finite' "$work/messages" || fail "NaN to PNG: $(cat "$work/messages")"

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "welkin/base/export.h"
+
 namespace welkin {
 
 /// Memory for pixels and tables, on a 64-byte boundary.
@@ -12,7 +14,7 @@ namespace welkin {
 /// have regions of their own. What is given back goes to the next who asks: at most one region is kept that
 /// nobody uses. Where the system has no such pages, and under AddressSanitizer, it is the heap's. Safe from
 /// many threads.
-class LargeMemory {
+class WELKIN_API LargeMemory {
  public:
   enum class Contents {
     zero,

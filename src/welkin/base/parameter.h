@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/export.h"
+
 namespace welkin {
 
 /// A number that a parameterization or a lobe can be given: a field of view, a roughness.
@@ -17,12 +19,12 @@ struct Parameter {
 
 /// Throws Error when the value, written as `text`, is NaN or out of the parameter's range. `owner`: what
 /// takes it.
-void check_range(std::string_view owner, const Parameter& parameter, double value, std::string_view text);
+WELKIN_API void check_range(std::string_view owner, const Parameter& parameter, double value, std::string_view text);
 
 /// The one of `known` that `NAME=NUMBER` names, with its value set; `inf` is a number. Throws Error for what
 /// isn't of that form, for a name that `known` lacks (the nearest is suggested), and for a number out of
 /// range.
-Parameter parse_parameter(std::string_view owner, const std::vector<Parameter>& known,
+WELKIN_API Parameter parse_parameter(std::string_view owner, const std::vector<Parameter>& known,
                           std::string_view assignment);
 
 }  // namespace welkin

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "welkin/base/export.h"
+
 namespace welkin {
 
 /// How a map is read between its texels.
@@ -14,7 +16,7 @@ enum class Filter {
   lanczos,    ///< three lobes, 6×6 texels
 };
 
-Filter filter_from_name(std::string_view name);  ///< `auto`, `nearest`, …; throws Error
-std::string_view name_of(Filter filter);
+WELKIN_API Filter filter_from_name(std::string_view name);  ///< `auto`, `nearest`, …; throws Error
+WELKIN_API std::string_view name_of(Filter filter);
 
 }  // namespace welkin

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "welkin/base/parallel.h"
+#include "welkin/base/error.h"
 #include "welkin/filter/resample_job.h"
+#include "welkin/map/borders.h"
 
 namespace welkin {
 namespace {
@@ -24,7 +26,9 @@ void fill_outside(Map& map, std::vector<float> fill) {
 
 }  // namespace
 
-void resample(const Map& source, Map& target, const ResampleOptions& options) {
+namespace {
+
+void resample_charts(const Map& source, Map& target, const ResampleOptions& options) {
   const bool same = source.parameterization == target.parameterization && source.width() == target.width() &&
                     source.height() == target.height() &&
                     source.orientation * transpose(options.rotation) == target.orientation;
@@ -42,6 +46,15 @@ void resample(const Map& source, Map& target, const ResampleOptions& options) {
   } else {
     resample_points(job, job.fetch_of(options.filter));
   }
+}
+
+}  // namespace
+
+void resample(const Map& source, Map& target, const ResampleOptions& options) {
+  require(source.channels() == target.channels(),
+          "the maps to resample between have other numbers of channels");
+  resample_charts(source, target, options);
+  if (options.borders) fill_borders(target);
 }
 
 ChartSize default_chart_size(const Map& map, const sphere::AnyParameterization& parameterization) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/base/monitor.h"
 #include "welkin/filter/filter.h"
 #include "welkin/map/map.h"
@@ -18,19 +19,21 @@ struct ResampleOptions {
   /// For directions that the source doesn't show and texels that aren't a place of the target: one value per
   /// channel; 0 where there are fewer.
   std::vector<float> fill;
+  bool borders = true;  ///< false: leave the target's borders (fill_borders) to the caller
   Monitor monitor;
 };
 
-/// Fills the target's charts (not its borders) from the source, whose borders must be filled. Both have the
+/// Fills the target's charts from the source, whose borders must be filled, and then the target's borders. Both have the
 /// same number of channels. Reads the source only; besides it needs at most a pyramid of a third of the
 /// source, and only to minify more than sixteenfold. Positions are exact to 1e-6 of a chart's side; the error
-/// of `automatic` against exact area sampling is measured in docs/benchmarks.md. Throws Cancelled.
+/// of `automatic` against exact area sampling is measured in docs/benchmarks.md. Throws Error (bad_request) for
+/// maps of other numbers of channels; Cancelled.
 ///
 /// A target of the source's own parameterization, size and orientation gets the texels as they are.
-void resample(const Map& source, Map& target, const ResampleOptions& options = {});
+WELKIN_API void resample(const Map& source, Map& target, const ResampleOptions& options = {});
 
 /// Size of a chart of `parameterization` that has as many texels per steradian as the map has on average,
 /// rounded to an even width.
-ChartSize default_chart_size(const Map& map, const sphere::AnyParameterization& parameterization);
+WELKIN_API ChartSize default_chart_size(const Map& map, const sphere::AnyParameterization& parameterization);
 
 }  // namespace welkin

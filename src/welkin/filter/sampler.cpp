@@ -187,14 +187,14 @@ void Sampler::look_up(const Vec3d& direction, std::span<float> radiance, double 
 
 std::array<float, 3> Sampler::rgb(const Vec3<float>& direction, double level) const {
   check_rgb(*state_);
-  float radiance[kMostChannels];
+  float radiance[kMaxChannels];
   state_->look_up_one(direction, state_->blend_at(level), radiance);
   return {radiance[0], radiance[1], radiance[2]};
 }
 
 std::array<float, 3> Sampler::rgb(const Vec3d& direction, double level) const {
   check_rgb(*state_);
-  float radiance[kMostChannels];
+  float radiance[kMaxChannels];
   state_->look_up_one(direction, state_->blend_at(level), radiance);
   return {radiance[0], radiance[1], radiance[2]};
 }

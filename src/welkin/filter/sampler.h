@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "welkin/base/export.h"
 #include "welkin/base/error.h"
 #include "welkin/filter/filter.h"
 #include "welkin/map/chain.h"
@@ -47,7 +48,7 @@ struct DirectionArrays {
 ///
 /// Throws Error: a level that is not a number from 0 to levels() − 1; `radiance` too short; arrays of
 /// different lengths. It is thrown before anything is written.
-class Sampler {
+class WELKIN_API Sampler {
  public:
   /// Move the map in; the borders of its charts are filled (fill_borders), as those of maps that were read
   /// are.

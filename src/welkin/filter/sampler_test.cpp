@@ -189,7 +189,7 @@ TEST(Sampler, RefusesWhatItCannotDo) {
 
 /// Results of a batch end where they are said to, at any count, for any number of channels.
 TEST(Sampler, WritesNoMoreThanItsResults) {
-  for (const int channels : {1, 2, 3, 4, 5, 7, kMostChannels}) {
+  for (const int channels : {1, 2, 3, 4, 5, 7, kMaxChannels}) {
     Map map = make_map("cube", 8, channels);
     fill_with_noise(map);
     const Sampler sampler(std::move(map), {.levels = 2});

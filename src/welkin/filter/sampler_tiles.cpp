@@ -54,7 +54,7 @@ Sampler::State::State(std::shared_ptr<const void> owner, const Map& map, const S
       float_orientation_(map.orientation),
       orientation_(map.orientation),
       owner_(std::move(owner)) {
-  static_assert(kTileValues / kMostChannels >= sphere::kLanes);
+  static_assert(kTileValues / kMaxChannels >= sphere::kLanes);
 }
 
 /// Finds the directions in a level. Returns whether all of them are shown.
@@ -153,7 +153,7 @@ void Sampler::State::look_up_one(const Vec3<float>& direction, const LevelBlend&
   }
   constexpr std::size_t kLanes = sphere::kLanes;
   alignas(64) float at[6 * kLanes];
-  float values[kMostChannels + 8];
+  float values[kMaxChannels + 8];
   float *x = at, *y = x + kLanes, *z = y + kLanes, *chart = z + kLanes, *u = chart + kLanes, *v = u + kLanes;
   const SampledLevel& in = levels_[static_cast<std::size_t>(level.finer)];
   bool shown = aim_.one(float_orientation_, &direction.x, at);

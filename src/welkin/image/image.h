@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "welkin/base/export.h"
 #include "welkin/base/large_memory.h"
 
 namespace welkin {
@@ -37,7 +38,7 @@ using PixelContents = LargeMemory::Contents;
 ///
 /// The buffer starts on a 64-byte boundary and has at least 64 readable bytes after the last value, so that a
 /// SIMD load may run past a row's end.
-class Image {
+class WELKIN_API Image {
  public:
   Image() = default;
 
@@ -60,6 +61,6 @@ class Image {
 };
 
 /// Copies texels between views of one size and one channel count.
-void copy_pixels(ImageView<const float> from, ImageView<float> to);
+WELKIN_API void copy_pixels(ImageView<const float> from, ImageView<float> to);
 
 }  // namespace welkin

@@ -28,7 +28,7 @@ enum class Channels {
 };
 
 /// What a format holds, as Welkin writes it.
-struct Capabilities {
+struct WELKIN_API Capabilities {
   std::string format;                     ///< `exr`
   std::string title;                      ///< as people write it: `EXR`, `WebP`
   std::vector<std::string> extensions;    ///< without dots, in small letters: `jpg`, `jpeg`

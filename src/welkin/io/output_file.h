@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "welkin/base/export.h"
 #include "welkin/io/byte_sink.h"
 
 namespace welkin::io {
@@ -40,7 +41,7 @@ class WELKIN_API OutputFile final : public ByteSink {
 
 /// A whole file, read-only, mapped into memory; a pipe is read to its end. Throws Error, `FILE: reason`. As
 /// with any mapping, a file that somebody shortens meanwhile ends the process (SIGBUS).
-class InputFile {
+class WELKIN_API InputFile {
  public:
   explicit InputFile(const std::filesystem::path& path);
   ~InputFile();
@@ -54,6 +55,6 @@ class InputFile {
 };
 
 /// Unlinks the temporary files of this process. Async-signal-safe.
-void remove_unfinished_outputs() noexcept;
+WELKIN_API void remove_unfinished_outputs() noexcept;
 
 }  // namespace welkin::io

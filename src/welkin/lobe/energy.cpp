@@ -27,7 +27,7 @@ double energy_between(const AnyLobe& lobe, double begin, double end) {
 
 double energy_cone_angle(const AnyLobe& lobe, double share) {
   require(share >= 0 && share <= 1, "the share of a lobe's energy is in 0…1");
-  if (lobe.mirror()) return 0;
+  if (lobe.is_mirror()) return 0;
   const std::vector<double> edges = panel_edges(lobe);
   std::vector<double> energies;
   double all = 0;

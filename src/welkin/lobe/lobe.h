@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/base/parameter.h"
 
 /// Rotationally symmetric lobes: how much light from an angle θ off the lobe's axis counts. This room knows
@@ -34,7 +35,7 @@ using PointSums = void (*)(const void* self, const Points& points, const float* 
 ///
 /// A lobe is a weight w(s) of s = 1 − cos θ, 0 ≤ s ≤ 2, which keeps its precision at the axis, where cos θ
 /// doesn't: for unit vectors a and b, s = |a − b|²/2. Weights are finite, never negative, and not normalised.
-class AnyLobe {
+class WELKIN_API AnyLobe {
  public:
   /// By name, with parameters: `lambert`, `ggx,roughness=0.5`, `phong,exponent=50`; or from a file:
   /// `table,file=PATH`, where the path is all the rest (see table_file.h). Throws Error: unknown names (the
@@ -42,10 +43,13 @@ class AnyLobe {
   static AnyLobe make(std::string_view spec);
   /// A lobe from values at ascending angles, in degrees from 0 to at most 180; linear in the angle between
   /// them, 0 beyond the last. Its spec is `table,NAME`, which `make` cannot make again. Throws Error, which
-  /// begins with `name`: fewer than two points or over kMostTablePoints, values that are negative or not
+  /// begins with `name`: fewer than two points or over kMaxTablePoints, values that are negative or not
   /// finite, all 0, angles that don't ascend from 0, a width under 1e-7 radians.
   static AnyLobe from_table(std::string_view name, std::span<const double> degrees,
                             std::span<const double> values);
+
+  /// All weight at the axis: a map filtered with it is the map, resampled.
+  static AnyLobe mirror();
 
   std::string name() const;
   /// What `make` takes to get this one again: the name and the parameters that aren't at their default.
@@ -62,7 +66,7 @@ class AnyLobe {
   /// The same lobe with another roughness. Throws Error when it has none, or for a value out of its range.
   AnyLobe with_roughness(double roughness) const;
   /// Whether it is a mirror: all weight at s = 0. Its weight() is meaningless; its zonal coefficients are 1.
-  bool mirror() const;
+  bool is_mirror() const;
 
   double weight(double s) const;  ///< the reference
   /// The same over arrays.
@@ -85,17 +89,19 @@ class AnyLobe {
   const void* self() const;
 
   class Model;
+  /// See custom.h.
+  static AnyLobe from_model(std::shared_ptr<const Model> model);
 
  private:
   explicit AnyLobe(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
   std::shared_ptr<const Model> model_;
 };
 
-inline constexpr std::size_t kMostTablePoints = 10000;
+inline constexpr std::size_t kMaxTablePoints = 10000;
 
 /// Names of all lobes that `make` knows without a file, in order of registration.
-const std::vector<std::string>& lobe_names();
+WELKIN_API const std::vector<std::string>& lobe_names();
 /// One line on `table`, which needs a file.
-std::string table_description();
+WELKIN_API std::string table_description();
 
 }  // namespace welkin::lobe

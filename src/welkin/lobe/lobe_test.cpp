@@ -29,7 +29,7 @@ TEST(Lobe, ReadsItsOwnSpecBack) {
                            "blinn,exponent=37.5", "charlie,roughness=0.2"}) {
     const AnyLobe lobe = AnyLobe::make(spec), again = AnyLobe::make(lobe.spec());
     EXPECT_EQ(lobe.spec(), again.spec());
-    if (lobe.mirror()) continue;
+    if (lobe.is_mirror()) continue;
     for (const double s : cases::places()) EXPECT_EQ(lobe.weight(s), again.weight(s)) << spec;
   }
 }
@@ -60,11 +60,11 @@ TEST(Lobe, HasARoughnessWhereItSaysSo) {
       EXPECT_THROW(lobe.with_roughness(0.5), Error) << lobe.spec();
       continue;
     }
-    EXPECT_FALSE(lobe.with_roughness(0.5).mirror()) << lobe.spec();
+    EXPECT_FALSE(lobe.with_roughness(0.5).is_mirror()) << lobe.spec();
     EXPECT_THROW(lobe.with_roughness(1.5), Error) << lobe.spec();
     EXPECT_THROW(lobe.with_roughness(-0.5), Error) << lobe.spec();
     if (lobe.name() == "charlie") continue;
-    EXPECT_TRUE(lobe.with_roughness(0).mirror()) << lobe.spec();
+    EXPECT_TRUE(lobe.with_roughness(0).is_mirror()) << lobe.spec();
   }
   EXPECT_EQ(AnyLobe::make("phong").with_roughness(0.01).spec(), AnyLobe::make("phong,exponent=100").spec());
 }

@@ -42,7 +42,7 @@ std::vector<double> panel_edges(const AnyLobe& lobe) {
 
 LobeNodes lobe_nodes(const AnyLobe& lobe, int degree) {
   static const QuadratureRule few = gauss_legendre(kFewNodes), many = gauss_legendre(kManyNodes);
-  assert(!lobe.mirror());
+  assert(!lobe.is_mirror());
   LobeNodes nodes;
   const std::vector<double> edges = panel_edges(lobe);
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {

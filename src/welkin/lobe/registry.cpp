@@ -7,6 +7,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
 #include "welkin/lobe/all.h"
+#include "welkin/lobe/custom.h"
 #include "welkin/lobe/kernels.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/lobe/panels.h"
@@ -15,104 +16,11 @@
 
 namespace welkin::lobe {
 
-/// What AnyLobe forwards to: one derived class per registered struct.
-class AnyLobe::Model {
- public:
-  virtual ~Model() = default;
-  virtual std::string name() const = 0;
-  virtual std::string description() const = 0;
-  virtual std::string source() const = 0;
-  /// What stands behind the name in the spec, where that isn't the parameters.
-  virtual std::string origin() const = 0;
-  virtual std::vector<Parameter> parameters() const = 0;
-  virtual std::vector<Parameter> synonyms() const = 0;
-  /// `name` is a parameter's or a synonym's.
-  virtual void set(std::string_view name, double value) = 0;
-  virtual std::unique_ptr<Model> copy() const = 0;
-  virtual bool mirror() const = 0;
-  virtual double weight(double s) const = 0;
-  virtual void weights64(const double* s, double* weights, std::size_t count) const = 0;
-  /// Where there is a closed form.
-  virtual std::optional<double> integral() const = 0;
-  virtual double width() const = 0;
-  virtual std::vector<double> breakpoints() const = 0;
-  virtual const void* self() const = 0;
-
-  Weights weights = nullptr;
-  PointSums point_sums = nullptr;
-};
+AnyLobe::Model::~Model() = default;
 
 namespace {
 
 using Model = AnyLobe::Model;
-
-/// Gives every parameter or synonym to a visitor, where the lobe has any.
-template <class L, class Visitor>
-void visit_parameters(L& lobe, Visitor&& visit) {
-  if constexpr (requires { lobe.visit_parameters(visit); }) lobe.visit_parameters(visit);
-}
-template <class L, class Visitor>
-void visit_synonyms(L& lobe, Visitor&& visit) {
-  if constexpr (requires { lobe.visit_synonyms(visit); }) lobe.visit_synonyms(visit);
-}
-
-template <class L>
-class ModelOf final : public Model {
- public:
-  explicit ModelOf(L lobe = {}) : lobe_(std::move(lobe)) {}
-
-  std::string name() const override { return L::kName; }
-  std::string description() const override { return L::kDescription; }
-  std::string source() const override { return L::kSource; }
-  std::string origin() const override {
-    if constexpr (requires { lobe_.origin; }) return lobe_.origin;
-    return {};
-  }
-
-  std::vector<Parameter> parameters() const override {
-    std::vector<Parameter> list;
-    L copy = lobe_;
-    visit_parameters(copy, collector(list));
-    return list;
-  }
-  std::vector<Parameter> synonyms() const override {
-    std::vector<Parameter> list;
-    L copy = lobe_;
-    visit_synonyms(copy, collector(list));
-    return list;
-  }
-  void set(std::string_view name, double value) override {
-    const auto assign = [&](const char* each, double& field, double, double, const char*) {
-      if (name == each) field = value;
-    };
-    visit_parameters(lobe_, assign);
-    visit_synonyms(lobe_, assign);
-  }
-  std::unique_ptr<Model> copy() const override { return std::make_unique<ModelOf>(*this); }
-
-  bool mirror() const override { return lobe_.mirror(); }
-  double weight(double s) const override { return lobe_.template weight<double>(s); }
-  void weights64(const double* s, double* weights, std::size_t count) const override {
-    const L lobe = lobe_;  // a copy that the stores can't change
-    for (std::size_t i = 0; i < count; ++i) weights[i] = lobe.template weight<double>(s[i]);
-  }
-  std::optional<double> integral() const override {
-    if constexpr (requires { lobe_.integral(); }) return lobe_.integral();
-    return {};
-  }
-  double width() const override { return lobe_.width(); }
-  std::vector<double> breakpoints() const override { return lobe_.breakpoints(); }
-  const void* self() const override { return &lobe_; }
-
- private:
-  static auto collector(std::vector<Parameter>& list) {
-    return [&list](const char* name, double& value, double lowest, double highest, const char* text) {
-      list.push_back({name, value, lowest, highest, text});
-    };
-  }
-
-  L lobe_;
-};
 
 Weights best_weights(std::size_t index) {
 #ifdef WELKIN_HAS_AVX2
@@ -221,6 +129,17 @@ AnyLobe AnyLobe::from_table(std::string_view name, std::span<const double> degre
   return AnyLobe(model_of(make_table(name, degrees, values), std::string(name)));
 }
 
+AnyLobe AnyLobe::from_model(std::shared_ptr<const Model> model) {
+  require(model != nullptr, "a lobe needs a model");
+  require(model->mirror() || (model->width() > 0 && model->width() <= kPi),
+          "the width of a lobe is over 0 and at most π");
+  return AnyLobe(std::move(model));
+}
+
+AnyLobe AnyLobe::mirror() {
+  return make("ggx,roughness=0");
+}
+
 AnyLobe AnyLobe::with_roughness(double roughness) const {
   const std::vector<Parameter> known = settable(*model_);
   const auto found =
@@ -240,7 +159,7 @@ bool AnyLobe::has_roughness() const {
 std::string AnyLobe::spec() const {
   std::string text = name();
   if (const std::string origin = model_->origin(); !origin.empty()) return text + "," + origin;
-  const std::vector<Parameter> now = parameters(), defaults = model_named(text).parameters();
+  const std::vector<Parameter> now = parameters(), defaults = model_->with_defaults()->parameters();
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (now[i].value != defaults[i].value) text += "," + now[i].name + "=" + number_text(now[i].value);
   }
@@ -248,7 +167,7 @@ std::string AnyLobe::spec() const {
 }
 
 double AnyLobe::integral() const {
-  if (mirror()) return 0;
+  if (is_mirror()) return 0;
   if (const std::optional<double> known = model_->integral()) return *known;
   const LobeNodes nodes = lobe_nodes(*this, 0);
   return std::accumulate(nodes.weights.begin(), nodes.weights.end(), 0.0);
@@ -269,7 +188,7 @@ std::vector<Parameter> AnyLobe::parameters() const {
 std::vector<Parameter> AnyLobe::synonyms() const {
   return model_->synonyms();
 }
-bool AnyLobe::mirror() const {
+bool AnyLobe::is_mirror() const {
   return model_->mirror();
 }
 double AnyLobe::weight(double s) const {

@@ -4,12 +4,14 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/export.h"
+
 namespace welkin::lobe {
 
 /// Which roughness each level of a chain is filtered for: an engine's own curve by its name, or a list. The
 /// engine reads a surface of roughness r at level_of(r), so a level is filtered for the roughness that is
 /// read there.
-class RoughnessCurve {
+class WELKIN_API RoughnessCurve {
  public:
   /// `linear`, `filament`, `unity`, `unreal`, `three.js`, `godot`, or a list: `0,0.1,0.5`. Throws Error:
   /// unknown names (the nearest is suggested), a list with what isn't a number of 0 … 1, or that doesn't
@@ -43,6 +45,6 @@ class RoughnessCurve {
 };
 
 /// Names of the curves that aren't lists.
-const std::vector<std::string>& roughness_curve_names();
+WELKIN_API const std::vector<std::string>& roughness_curve_names();
 
 }  // namespace welkin::lobe

@@ -26,8 +26,8 @@ void check_point(const std::string& where, const std::vector<double>& before, do
   if (!(value >= 0 && std::isfinite(value))) {
     fail(": the value " + number_text(value) + " is not a finite number of at least 0");
   }
-  if (before.size() >= kMostTablePoints) {
-    fail(": has more than " + std::to_string(kMostTablePoints) + " points");
+  if (before.size() >= kMaxTablePoints) {
+    fail(": has more than " + std::to_string(kMaxTablePoints) + " points");
   }
 }
 

@@ -34,7 +34,7 @@ std::vector<double> legendre_sums(std::vector<double> s, std::vector<double> wei
 
 std::vector<double> zonal_coefficients(const AnyLobe& lobe, int degree) {
   require(degree >= 0, "the degree of harmonics is at least 0");
-  if (lobe.mirror()) return std::vector<double>(static_cast<std::size_t>(degree) + 1, 1.0);
+  if (lobe.is_mirror()) return std::vector<double>(static_cast<std::size_t>(degree) + 1, 1.0);
   const LobeNodes nodes = lobe_nodes(lobe, degree);
   // P_l(−t) = (−1)^l P_l(t) brings the far half of the sphere to s ≤ 1, where the recurrence is precise.
   std::vector<double> front, front_weights, behind, behind_weights;

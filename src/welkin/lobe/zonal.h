@@ -2,18 +2,19 @@
 
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/lobe/lobe.h"
 
 namespace welkin::lobe {
 
 /// Σ_i weights[i] P_l(1 − s[i]) for l = 0 … degree; 0 ≤ s ≤ 1. In SIMD, keeping the precision of small s.
-std::vector<double> legendre_sums(std::vector<double> s, std::vector<double> weights, int degree);
+WELKIN_API std::vector<double> legendre_sums(std::vector<double> s, std::vector<double> weights, int degree);
 
 /// Zonal coefficients of the normalised lobe, degrees 0 … degree: λ_l = 2π ∫ w(s) P_l(1 − s) ds / ∫ w dω, so
 /// λ_0 = 1. Convolving a map with the lobe multiplies its harmonics of degree l by λ_l (Funk–Hecke). Absolute
 /// error 1e-10. Gauss–Legendre over panels that shrink toward the axis and end at the lobe's breakpoints; a
 /// call costs well under a millisecond for a degree of a few hundred. 1 everywhere for a mirror.
-std::vector<double> zonal_coefficients(const AnyLobe& lobe, int degree);
+WELKIN_API std::vector<double> zonal_coefficients(const AnyLobe& lobe, int degree);
 
 /// What is lost of a lobe by keeping its degrees up to L alone, for every L that its coefficients reach; what
 /// lies beyond the coefficients given is not seen. `largest[L]` is the largest |λ_l| of l > L: the root mean
@@ -22,10 +23,10 @@ std::vector<double> zonal_coefficients(const AnyLobe& lobe, int degree);
 struct ZonalTail {
   std::vector<double> largest, sum;
 };
-ZonalTail zonal_tail(const std::vector<double>& coefficients);
+WELKIN_API ZonalTail zonal_tail(const std::vector<double>& coefficients);
 
 /// The least degree L such that no |λ_l| of L < l ≤ 2L + 16 is above `tolerance`; `most` where that is
 /// smaller. A lobe cut at the horizon decays as l^−2.5 there, a smooth one exponentially.
-int degree_for(const AnyLobe& lobe, double tolerance, int most);
+WELKIN_API int degree_for(const AnyLobe& lobe, double tolerance, int most);
 
 }  // namespace welkin::lobe

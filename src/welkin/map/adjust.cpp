@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
+#include "welkin/map/borders.h"
 #include "welkin/map/row_bands.h"
 
 namespace welkin {
@@ -89,18 +91,40 @@ std::uint64_t sanitize(Map& map, float replacement) {
       above_changed = change;
     }
   }
+  if (replaced > 0) fill_borders(map);
   return replaced;
 }
 
 void scale(Map& map, float factor) {
   std::vector<float> factors;
   for (const std::string& name : map.channel_names) factors.push_back(name == "A" ? 1.0f : factor);
-  parallel_for(map.charts() * map.height(), [&](int i) {
-    float* value = map.level.chart(i / map.height()).row(i % map.height());
-    for (int x = 0; x < map.width(); ++x) {
+  // The borders too: what lies past an edge is a weighted sum of texels.
+  const int rows = map.height() + 2 * kBorder, columns = map.width() + 2 * kBorder;
+  parallel_for(map.charts() * rows, [&](int i) {
+    float* value = map.level.chart(i / rows).at(-kBorder, i % rows - kBorder);
+    for (int x = 0; x < columns; ++x) {
       for (const float each : factors) *value++ *= each;
     }
   });
+}
+
+void turn_world(Map& map, const Matrix3& rotation) {
+  require(is_orthonormal(rotation), "a world is turned by a rotation or a reflection");
+  map.orientation = map.orientation * transpose(rotation);
+}
+
+Map without_alpha(const Map& map) {
+  require(map.channel_names == std::vector<std::string>{"R", "G", "B", "A"},
+          "alpha is dropped of a map of R G B A");
+  Map rgb(map.parameterization, map.width(), map.height(), 3);
+  rgb.orientation = map.orientation;
+  const int rows = map.height() + 2 * kBorder, columns = map.width() + 2 * kBorder;
+  parallel_for(map.charts() * rows, [&](int i) {
+    const float* from = map.level.chart(i / rows).at(-kBorder, i % rows - kBorder);
+    float* to = rgb.level.chart(i / rows).at(-kBorder, i % rows - kBorder);
+    for (int x = 0; x < columns; ++x) std::copy_n(from + 4 * x, 3, to + 3 * x);
+  });
+  return rgb;
 }
 
 }  // namespace welkin

@@ -146,7 +146,7 @@ Fill first_value(const AnyParameterization& p, const Level& level, const Texel& 
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
   const double fx = x - ix, fy = y - iy;
   double total = 0;
-  double sum[kMostChannels] = {};
+  double sum[kMaxChannels] = {};
   const int channels = level.channels();
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 2; ++i) {

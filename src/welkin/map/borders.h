@@ -1,5 +1,6 @@
 #pragma once
 
+#include "welkin/base/export.h"
 #include "welkin/map/map.h"
 
 namespace welkin {
@@ -12,7 +13,7 @@ namespace welkin {
 /// has there: the texel itself where that direction is a texel centre of another chart (lat-long, octahedra),
 /// else the Catmull–Rom interpolation of that chart (cubes, discs). Where the map shows nothing (behind a
 /// hemisphere) it takes the mean of its neighbours that do, ring by ring.
-void fill_borders(const sphere::AnyParameterization& parameterization, Level& level);
+WELKIN_API void fill_borders(const sphere::AnyParameterization& parameterization, Level& level);
 
 inline void fill_borders(Map& map) {
   fill_borders(map.parameterization, map.level);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/map/map.h"
 
 /// Chains: the levels of a texture, each half as large as the one before (docs/chains.md).
@@ -11,7 +12,7 @@ namespace welkin {
 
 /// What the levels of a chain hold, in words: stored with it, and shown to whoever reads it. A file may say
 /// anything here; nothing is computed from it.
-struct ChainNotes {
+struct WELKIN_API ChainNotes {
   std::string lobe;  ///< that the levels are filtered with, as lobe::AnyLobe::make takes it, the roughness
                      ///< left out: `ggx`. Empty for plain maps
   std::vector<double> roughness;  ///< of each level; empty where the lobe has none
@@ -36,9 +37,9 @@ struct Chain {
 };
 
 /// Charts of level k: max(1, side >> k).
-ChartSize chain_size(ChartSize finest, int level);
+WELKIN_API ChartSize chain_size(ChartSize finest, int level);
 
 /// How many levels charts of this size have, down to 1×1.
-int max_levels(ChartSize finest);
+WELKIN_API int max_levels(ChartSize finest);
 
 }  // namespace welkin

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "welkin/base/error.h"
+#include "welkin/map/borders.h"
 
 namespace welkin {
 
@@ -17,8 +18,8 @@ Level::Level(int charts, int width, int height, int channels, PixelContents cont
                                             " texels cannot be made (a side is 1 to " +
                                             std::to_string(kLargestSide / charts) + ")");
   }
-  if (channels < 1 || channels > kMostChannels) {
-    throw Error(ErrorKind::bad_request, "a map has 1 to " + std::to_string(kMostChannels) +
+  if (channels < 1 || channels > kMaxChannels) {
+    throw Error(ErrorKind::bad_request, "a map has 1 to " + std::to_string(kMaxChannels) +
                                             " channels, not " + std::to_string(channels));
   }
   storage_ = Image(width + 2 * kBorder, (height + 2 * kBorder) * charts, channels, contents);
@@ -60,6 +61,24 @@ Map::Map(sphere::AnyParameterization which, int width, int height, int channels,
     : parameterization(which.at_size(width, height)),
       level(parameterization.charts(), width, height, channels, contents),
       channel_names(default_channel_names(channels)) {}
+
+Map Map::from_pixels(const sphere::AnyParameterization& which, std::span<const Pixels> charts) {
+  if (charts.size() != static_cast<std::size_t>(which.charts())) {
+    throw Error(ErrorKind::mismatch, which.name() + " has " + std::to_string(which.charts()) +
+                                         " charts, but pixels of " + std::to_string(charts.size()) +
+                                         " were given");
+  }
+  const Pixels& first = charts.front();
+  Map map(which, first.width, first.height, first.channels, PixelContents::unset);
+  for (int chart = 0; chart < map.charts(); ++chart)
+    copy_pixels(charts[static_cast<std::size_t>(chart)], map.level.chart(chart));
+  fill_borders(map);
+  return map;
+}
+
+Map Map::from_pixels(const sphere::AnyParameterization& which, const Pixels& chart) {
+  return from_pixels(which, {&chart, 1});
+}
 
 void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart,
                         int row, float* out) {

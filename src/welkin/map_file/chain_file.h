@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "welkin/base/export.h"
 #include "welkin/map/chain.h"
 #include "welkin/map_file/map_file.h"
 

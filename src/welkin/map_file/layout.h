@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/map/map.h"
 
 /// Layouts: how the charts of a map lie in a picture, or in several.
@@ -38,14 +39,14 @@ struct Layout {
 /// The layouts of a parameterization, its default first. Crosses, strips and face files are pictures seen
 /// from inside, never mirrored; native cube faces are (docs/conventions.md). Whether there are
 /// crosses, and how wide a grid is, the parameterization's traits say.
-std::vector<Layout> layouts_of(const sphere::AnyParameterization& parameterization);
+WELKIN_API std::vector<Layout> layouts_of(const sphere::AnyParameterization& parameterization);
 
 /// Names of the charts in file names and `--faces`: px nx py ny pz nz for cubes, else 0, 1, 2….
-std::vector<std::string> chart_names(const sphere::AnyParameterization& parameterization);
+WELKIN_API std::vector<std::string> chart_names(const sphere::AnyParameterization& parameterization);
 
 /// A parameterization and a layout, as written on the command line: `cube:hcross`,
 /// `fisheye-equidistant,fov=200`.
-struct MapShape {
+struct WELKIN_API MapShape {
   sphere::AnyParameterization parameterization;
   Layout layout;
 
@@ -53,39 +54,39 @@ struct MapShape {
 };
 
 /// Parses NAME[:LAYOUT][,PARAMETER=VALUE]…. Throws Error for unknown names, with the nearest.
-MapShape parse_map_shape(std::string_view text);
+WELKIN_API MapShape parse_map_shape(std::string_view text);
 
 /// The shape of charts of this size. It differs where the parameterization depends on the size: parameters
 /// `width` and `height` follow it.
-MapShape for_chart_size(const MapShape& shape, ChartSize size);
+WELKIN_API MapShape for_chart_size(const MapShape& shape, ChartSize size);
 
 /// The layout for a map whose orientation is a reflection. Its native faces are unmirrored pictures already,
 /// so cells aren't mirrored, and where faces adjoin, +X and −X change places.
-Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& parameterization);
+WELKIN_API Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& parameterization);
 
 /// Another order and turn of the charts: `px,nx,py:90,ny:270:mirror,pz,nz` names the chart of each of the
 /// layout's cells in reading order, and how its picture is turned clockwise (after mirroring) beyond what the
 /// layout does. Also `+X` for `px`.
-Layout with_faces(const Layout& layout, const sphere::AnyParameterization& parameterization,
+WELKIN_API Layout with_faces(const Layout& layout, const sphere::AnyParameterization& parameterization,
                   std::string_view faces);
 
 /// Size of a chart in a picture of this size, or nothing when the grid doesn't divide it.
-std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, int picture_height);
+WELKIN_API std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, int picture_height);
 
 /// Throws Error when the layout turns a cell by 90° or 270° and charts of this size, not being square, would
 /// no longer fit the grid.
-void check_turns(const Layout& layout, ChartSize size);
+WELKIN_API void check_turns(const Layout& layout, ChartSize size);
 
 /// Copies a chart out of a cell's pixels, or into them. Sizes match (swapped for odd quarter turns).
-void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart);
-void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture);
+WELKIN_API void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart);
+WELKIN_API void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture);
 /// The second for some of the cell's rows, from `first` on.
-void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int first,
+WELKIN_API void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int first,
                        ImageView<float> rows);
 
 /// Rows of a layout's picture, from row `first` on: all cells, each with the chart of its number in `charts`,
 /// and black where there is none. Charts are of one size.
-void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
+WELKIN_API void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
                ImageView<float> rows);
 
 /// The rectangle of a cell in a picture.

@@ -31,7 +31,7 @@ std::vector<int> choose_channels(const std::string& name, const io::PartInfo& pa
   for (std::istringstream names(declared); std::getline(names, channel, ',');) {
     chosen.push_back(index_of(channel));
   }
-  if (!chosen.empty() && std::count(chosen.begin(), chosen.end(), -1) == 0 && chosen.size() <= kMostChannels)
+  if (!chosen.empty() && std::count(chosen.begin(), chosen.end(), -1) == 0 && chosen.size() <= kMaxChannels)
     return chosen;
   chosen.clear();
   if (index_of("R") >= 0 && index_of("G") >= 0 && index_of("B") >= 0) {

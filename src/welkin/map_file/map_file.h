@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/io/image_file.h"
 #include "welkin/map/chain.h"
 #include "welkin/map/map.h"

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "welkin/base/export.h"
 #include "welkin/math/vec.h"
 
 namespace welkin {
@@ -15,14 +16,14 @@ struct Matrix3 {
 };
 
 Matrix3 operator*(const Matrix3& a, const Matrix3& b);
-Matrix3 transpose(const Matrix3& a);
-double determinant(const Matrix3& a);
+WELKIN_API Matrix3 transpose(const Matrix3& a);
+WELKIN_API double determinant(const Matrix3& a);
 
 /// True when the rows are orthonormal to within 1e-4: a rotation, or a reflection.
-bool is_orthonormal(const Matrix3& a);
+WELKIN_API bool is_orthonormal(const Matrix3& a);
 
 /// Nearest orthonormal matrix to one that is nearly so (Gram–Schmidt, rows in order).
-Matrix3 orthonormalize(const Matrix3& a);
+WELKIN_API Matrix3 orthonormalize(const Matrix3& a);
 
 template <class T>
 Vec3<T> operator*(const Matrix3& m, const Vec3<T>& v) {
@@ -35,13 +36,13 @@ Vec3<T> operator*(const Matrix3& m, const Vec3<T>& v) {
 }
 
 /// Multiplies `count` vectors by m, in float.
-void multiply(const Matrix3& m, float* x, float* y, float* z, std::size_t count);
+WELKIN_API void multiply(const Matrix3& m, float* x, float* y, float* z, std::size_t count);
 
 /// The rotation that turns the world by `yaw` about +Y, after `pitch` about +X, after `roll` about +Z;
 /// degrees, right-handed (positive yaw takes +Z to +X).
-Matrix3 rotation_from_yaw_pitch_roll(double yaw, double pitch, double roll);
+WELKIN_API Matrix3 rotation_from_yaw_pitch_roll(double yaw, double pitch, double roll);
 
 /// The rotation of the quaternion w + xi + yj + zk, which need not have unit length (but not zero length).
-Matrix3 rotation_from_quaternion(double w, double x, double y, double z);
+WELKIN_API Matrix3 rotation_from_quaternion(double w, double x, double y, double z);
 
 }  // namespace welkin

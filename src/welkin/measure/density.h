@@ -1,5 +1,6 @@
 #pragma once
 
+#include "welkin/base/export.h"
 #include "welkin/sphere/registry.h"
 
 namespace welkin {
@@ -25,13 +26,13 @@ struct DensityReport {
 inline constexpr double kUnboundedRatio = 5e3;
 
 /// For charts of `size` texels across, 2 … 16384, and as high as makes texels square. Throws Error outside.
-DensityReport density_of(const sphere::AnyParameterization& parameterization, int size);
+WELKIN_API DensityReport density_of(const sphere::AnyParameterization& parameterization, int size);
 
 /// The extremes of solid_angle_density over the valid domain, sr per unit (u, v) area, and that domain's
 /// area, 1 for a full chart.
 struct DensityLimits {
   double minimum, maximum, valid_area;
 };
-DensityLimits density_limits(const sphere::AnyParameterization& parameterization);
+WELKIN_API DensityLimits density_limits(const sphere::AnyParameterization& parameterization);
 
 }  // namespace welkin

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "welkin/base/export.h"
 #include "welkin/image/image.h"
 #include "welkin/measure/density.h"
 
@@ -13,6 +14,6 @@ namespace welkin {
 ///
 /// Linear sRGB. The charts are as large as those of the report, which density_of made of the
 /// parameterization.
-Image draw_density(const sphere::AnyParameterization& parameterization, const DensityReport& report);
+WELKIN_API Image draw_density(const sphere::AnyParameterization& parameterization, const DensityReport& report);
 
 }  // namespace welkin

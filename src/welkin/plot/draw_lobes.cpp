@@ -108,7 +108,7 @@ std::vector<double> curve_angles(const AnyLobe& lobe, const Frame& frame) {
 }
 
 void draw_curve(Image& picture, const AnyLobe& lobe, const Frame& frame, const Rgb& color) {
-  if (lobe.mirror()) return;
+  if (lobe.is_mirror()) return;
   const std::vector<double> angles = curve_angles(lobe, frame);
   std::vector<double> weights;
   for (const double angle : angles) weights.push_back(lobe.weight(lobe::s_of_angle(angle / 180 * kPi)));

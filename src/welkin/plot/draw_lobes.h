@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "welkin/base/export.h"
 #include "welkin/image/image.h"
 #include "welkin/lobe/lobe.h"
 
@@ -19,6 +20,6 @@ struct LobePlot {
 /// Curves of the lobes' weights over their largest, against the angle from the axis, on white, linear sRGB.
 /// They are numbered from 1 in the order given, from dark violet to green, in the list at the right. A mirror
 /// has no curve.
-Image draw_lobes(std::span<const lobe::AnyLobe> lobes, const LobePlot& plot);
+WELKIN_API Image draw_lobes(std::span<const lobe::AnyLobe> lobes, const LobePlot& plot);
 
 }  // namespace welkin

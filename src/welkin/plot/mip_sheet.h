@@ -1,5 +1,6 @@
 #pragma once
 
+#include "welkin/base/export.h"
 #include "welkin/map/map.h"
 
 namespace welkin {
@@ -8,6 +9,6 @@ namespace welkin {
 /// 2×2 means, below those weighted by solid angle. Each row shows the charts of the default layout's reading
 /// order at level 0 to the last level of two texels, enlarged to the size of level 0 without interpolation.
 /// RGB, linear.
-Image draw_mip_sheet(const Map& map, double exposure = 0);
+WELKIN_API Image draw_mip_sheet(const Map& map, double exposure = 0);
 
 }  // namespace welkin

@@ -78,7 +78,7 @@ std::vector<std::optional<Choice>> choose(const PrefilterPlan::Tables& t) {
   const double source_texel = mean_texel(t.source.parameterization, t.source.size);
   for (std::size_t i = 0; i < choices.size(); ++i) {
     const lobe::AnyLobe& lobe = t.levels[i].lobe;
-    if (lobe.mirror()) continue;
+    if (lobe.is_mirror()) continue;
     const double texel = std::max(source_texel, mean_texel(t.target, t.levels[i].size));
     Choice& choice = choices[i].emplace(Choice{widen(lobe, texel, t.options.tolerance / 5)});
     if (!is_split(lobe, choice.lobe.degree())) continue;

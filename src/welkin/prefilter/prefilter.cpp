@@ -60,7 +60,7 @@ std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) c
   std::vector<Map> results;
   auto next = harmonic.levels.begin();
   for (std::size_t i = 0; i < t.levels.size(); ++i) {
-    if (!t.levels[i].lobe.mirror()) {
+    if (!t.levels[i].lobe.is_mirror()) {
       Map& map = results.emplace_back(std::move(*next++));
       if (t.options.scale == LobeScale::integral) scale(map, static_cast<float>(t.levels[i].lobe.integral()));
     } else {
@@ -69,6 +69,7 @@ std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) c
       ResampleOptions how;
       how.filter = mirror_filter(t.options, from, map.parameterization, t.levels[i].size);
       how.monitor = without_progress(monitor);
+      how.borders = false;
       resample(from, map, how);
     }
     if (t.options.borders) fill_borders(results.back());

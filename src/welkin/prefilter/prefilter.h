@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/base/monitor.h"
 #include "welkin/filter/filter.h"
 #include "welkin/lobe/lobe.h"
@@ -65,7 +66,7 @@ struct PrefilterMethod {
 
 /// Everything that depends on sizes and lobes alone, kept for any number of maps: sequences and probe grids
 /// pay for it once. Never changes; safe from many threads.
-class PrefilterPlan {
+class WELKIN_API PrefilterPlan {
  public:
   /// Throws Error for sizes below 1, tolerances out of range, and levels whose tables would not fit in
   /// memory.

@@ -145,7 +145,7 @@ TEST(PrefilterLaws, EnergyIsKept) {
     const std::vector<PrefilterLevel> levels = levels_of({192, 96});
     const std::vector<Map> results = run(source, "latlong", {192, 96});
     for (std::size_t i = 0; i < results.size(); ++i) {
-      if (levels[i].lobe.mirror()) continue;
+      if (levels[i].lobe.is_mirror()) continue;
       double sum = 0;
       for (int y = 0; y < 96; ++y) {
         const double ring = 2 * kPi / 192 * (std::cos(y * kPi / 96) - std::cos((y + 1) * kPi / 96));
@@ -207,7 +207,7 @@ TEST(PrefilterLaws, NegativeRadianceIsConvolvedToo) {
     change(source, [](float value) { return -value; });
     const std::vector<Map> negative = run(source, "cube", {8, 8});
     for (std::size_t i = 0; i < positive.size(); ++i) {
-      if (levels_of({8, 8})[i].lobe.mirror()) continue;
+      if (levels_of({8, 8})[i].lobe.is_mirror()) continue;
       EXPECT_LT(difference(positive[i], negative[i], -1), 1e-6) << levels_of({8, 8})[i].lobe.spec();
     }
   }
@@ -252,7 +252,7 @@ TEST(PrefilterLaws, SumsOfMapsAreSumsOfLevels) {
   const std::vector<Map> of_a = run(a, "cube", {8, 8}), of_b = run(b, "cube", {8, 8}),
                          of_sum = run(sum, "cube", {8, 8});
   for (std::size_t i = 0; i < of_a.size(); ++i) {
-    if (levels_of({8, 8})[i].lobe.mirror()) continue;
+    if (levels_of({8, 8})[i].lobe.is_mirror()) continue;
     double squares = 0, errors = 0;
     cases::for_each_place(of_a[i], [&](int chart, int x, int y) {
       const auto at = [&](const Map& map) { return static_cast<double>(*map.level.chart(chart).at(x, y)); };
@@ -297,7 +297,7 @@ TEST(PrefilterLaws, LongitudeIsNothingSpecial) {
     fill_borders(shifted);
     const std::vector<Map> a = run(source, "latlong", {16, 8}), b = run(shifted, "latlong", {16, 8});
     for (std::size_t i = 0; i < a.size(); ++i) {
-      if (levels_of({16, 8})[i].lobe.mirror()) continue;
+      if (levels_of({16, 8})[i].lobe.is_mirror()) continue;
       Map back(a[i].parameterization, 16, 8, 1);
       for (int k = 0; k < 128; ++k)
         *back.level.chart(0).at(k % 16, k / 16) = *b[i].level.chart(0).at((k % 16 + 2) % 16, k / 16);
@@ -315,7 +315,7 @@ TEST(PrefilterLaws, IntegralsAreAveragesTimesTheLobesIntegral) {
                          integrals = run(source, "cube", {4, 4}, options);
   for (std::size_t i = 0; i < averages.size(); ++i) {
     const AnyLobe lobe = levels_of({4, 4})[i].lobe;
-    EXPECT_LT(difference(integrals[i], averages[i], lobe.mirror() ? 1 : lobe.integral()), 1e-6)
+    EXPECT_LT(difference(integrals[i], averages[i], lobe.is_mirror() ? 1 : lobe.integral()), 1e-6)
         << lobe.spec();
   }
 }

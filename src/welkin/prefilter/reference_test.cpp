@@ -32,7 +32,7 @@ TEST(PrefilterReference, AConstantMapStaysConstant) {
     const PrefilterReference reference(source);
     EXPECT_NEAR(reference.integral()[0] / (10 * kPi), 1, 3e-6) << shape;
     for (const AnyLobe& lobe : lobe::cases::all_lobes()) {
-      if (lobe.mirror() || lobe.width() < 1e-3) continue;
+      if (lobe.is_mirror() || lobe.width() < 1e-3) continue;
       const double bound = lobe.name() == "table" || lobe.spec() == "phong,exponent=0" ? 3e-3 : 2e-4;
       for (const double value : values(reference, lobe, kAxes))
         EXPECT_NEAR(value / 2.5, 1, bound) << shape << ' ' << lobe.spec();

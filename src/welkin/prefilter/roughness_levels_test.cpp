@@ -13,7 +13,7 @@ TEST(RoughnessLevels, AreTheCurvesAndTheChains) {
   const lobe::RoughnessCurve linear = lobe::RoughnessCurve::from_name("linear");
   const auto levels = roughness_levels(AnyLobe::make("ggx"), linear, {9, 5}, 3);
   ASSERT_EQ(levels.size(), 3u);
-  EXPECT_TRUE(levels[0].lobe.mirror());
+  EXPECT_TRUE(levels[0].lobe.is_mirror());
   EXPECT_EQ(roughness_of(levels[1].lobe), 0.5);
   EXPECT_EQ(roughness_of(levels[2].lobe), 1);
   EXPECT_EQ(levels[1].size.width, 4);

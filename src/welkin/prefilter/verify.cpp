@@ -181,7 +181,7 @@ class Verifier {
         reference_(source) {
     const std::vector<Vec3d> lights = brightest_lights(source, kLights);
     for (std::size_t i = 0; i < levels.size(); ++i) {
-      const bool mirror = levels[i].lobe.mirror(), integral = options.prefilter.scale == LobeScale::integral;
+      const bool mirror = levels[i].lobe.is_mirror(), integral = options.prefilter.scale == LobeScale::integral;
       lobes_.push_back(furnace_plan_.methods()[i].lobe);
       one_.push_back(integral && !mirror ? levels[i].lobe.integral() : 1);
       compared_.push_back(mirror ? Compared{} : compared_texels(maps[i], lights, options));
@@ -195,7 +195,7 @@ class Verifier {
     for (const std::size_t c : measured_channels(source_)) squares += magnitudes[c] * magnitudes[c];
     const double mean = std::sqrt(squares) / source_.parameterization.coverage();
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-      if (lobes_[i].mirror()) continue;
+      if (lobes_[i].is_mirror()) continue;
       const std::vector<double> wanted = evaluate(reference_, i, source_.channels());
       results[i].reference = errors_of(levels_[i], compared_[i], wanted, kSmall * mean * one_[i]);
     }
@@ -205,7 +205,7 @@ class Verifier {
     const auto integrals = integrals_of_levels(source_, lobes_, options_);
     const std::vector<double> magnitudes = integral_of_magnitudes(source_);
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-      if (lobes_[i].mirror()) {
+      if (lobes_[i].is_mirror()) {
         if (levels_[i].parameterization.coverage() < source_.parameterization.coverage() - 1e-9) continue;
         results[i].energy = energy_of(integral_of_texels(levels_[i]), reference_.integral(), magnitudes);
       } else if (integrals[i]) {
@@ -225,7 +225,7 @@ class Verifier {
     }
     const PrefilterReference reference(furnace);
     for (std::size_t i = 0; i < hot.size(); ++i) {
-      if (lobes_[i].mirror()) continue;
+      if (lobes_[i].is_mirror()) continue;
       results[i].furnace = furnace_of_part(hot[i], compared_[i], evaluate(reference, i, 1), one_[i]);
     }
   }

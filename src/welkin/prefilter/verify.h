@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/prefilter/prefilter.h"
 
 /// Measures pre-filtered levels against brute force.
@@ -61,6 +62,6 @@ std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<con
                                                 const VerifyOptions& options = {});
 
 /// Throws as verify_prefilter does for a source of that size.
-void check_verifiable(const PrefilterShape& source);
+WELKIN_API void check_verifiable(const PrefilterShape& source);
 
 }  // namespace welkin

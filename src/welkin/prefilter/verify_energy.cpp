@@ -62,7 +62,7 @@ std::vector<double> grid_integral(const Map& map) {
 
 std::optional<int> energy_rows(const lobe::AnyLobe& lobe) {
   const double rows = 2 * std::ceil(8 / lobe.width());
-  if (lobe.mirror() || rows > kMaxRows) return std::nullopt;
+  if (lobe.is_mirror() || rows > kMaxRows) return std::nullopt;
   return std::max(static_cast<int>(rows), kMinRows);
 }
 
@@ -119,7 +119,7 @@ std::vector<std::optional<std::vector<double>>> integrals_of_levels(const Map& s
   if (!source.parameterization.whole_world()) return integrals;
   prefilter.orientation = source.orientation;
   for (std::size_t i = 0; i < lobes.size(); ++i) {
-    if (integrals[i] || lobes[i].mirror()) continue;
+    if (integrals[i] || lobes[i].is_mirror()) continue;
     const PrefilterPlan plan(shape, source.parameterization, {{shape.size, lobes[i]}}, prefilter);
     const Map map = std::move(plan.run(source, {nullptr, options.monitor.cancelled}).front());
     // About a light at a pole there are few rows: texels times solid angles are a poor sum of what rows

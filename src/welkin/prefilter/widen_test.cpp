@@ -16,7 +16,7 @@ using lobe::AnyLobe;
 std::vector<AnyLobe> lobes() {
   std::vector<AnyLobe> list;
   for (const AnyLobe& each : lobe::cases::all_lobes()) {
-    if (!each.mirror()) list.push_back(each);
+    if (!each.is_mirror()) list.push_back(each);
   }
   return list;
 }

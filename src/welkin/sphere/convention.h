@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/math/rotation.h"
 #include "welkin/sphere/registry.h"
 
@@ -30,13 +31,13 @@ struct Convention {
 };
 
 /// All presets. The first is `native`: identity.
-const std::vector<Convention>& conventions();
+WELKIN_API const std::vector<Convention>& conventions();
 
 /// Throws Error for a name that conventions() lacks; the message suggests the nearest.
-const Convention& convention_from_name(std::string_view name);
+WELKIN_API const Convention& convention_from_name(std::string_view name);
 
 /// The orientation of a map of this parameterization in a file of this convention. Identity for those that
 /// no program has a convention for (Projection::unturned: photographs of balls, the half-cube).
-Matrix3 orientation_for(const Convention& convention, const sphere::AnyParameterization& parameterization);
+WELKIN_API Matrix3 orientation_for(const Convention& convention, const sphere::AnyParameterization& parameterization);
 
 }  // namespace welkin

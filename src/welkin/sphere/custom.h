@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "welkin/base/export.h"
 #include "welkin/sphere/registry.h"
 
 /// Parameterizations of one's own: a struct that meets the concept of parameterization.h becomes an

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/math/vec.h"
 
 /// The built-in maps, as functions of direction. Rendering one into a picture, with antialiasing, is the map
@@ -45,10 +46,10 @@ struct SynthOptions {
 };
 
 /// Names of the built-in maps, in the order they are best shown.
-std::vector<std::string> names();
+WELKIN_API std::vector<std::string> names();
 
 /// One line about a map. Throws Error for a name that names() lacks.
-std::string description(std::string_view name);
+WELKIN_API std::string description(std::string_view name);
 
 /// The map of that name. Throws Error for a name that names() lacks, and for an option that the map reads and
 /// that is out of its range; the message names the map and the option.

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "welkin/base/error.h"
+#include "welkin/base/version.h"
 #include "welkin/io/byte_order.h"
 
 namespace welkin::io::ktx2 {
@@ -60,7 +61,7 @@ Keys parse_keys(std::span<const std::byte> bytes, std::uint64_t offset) {
 std::vector<std::byte> written_keys(const std::map<std::string, std::string>& attributes) {
   // The order of std::string is that of bytes, which in UTF-8 is the order of code points.
   std::map<std::string, std::string> all = {{"KTXorientation", "rd"},
-                                            {"KTXwriter", "welkin " WELKIN_VERSION}};
+                                            {"KTXwriter", "welkin " + std::string(version())}};
   for (const auto& [key, value] : attributes) {
     if (key.starts_with("KTX") || key.starts_with("ktx")) continue;
     if (key.empty()) throw Error(ErrorKind::damaged, "an attribute without a name cannot be a key of KTX2");

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "welkin/base/export.h"
+#include "welkin/image/image.h"
+
+/// Pixels of other programs: any spacing, float or half.
+namespace welkin {
+
+enum class PixelFormat {
+  float32,
+  half,  ///< IEEE 754 binary16, two bytes
+};
+
+/// Where a rectangle of somebody's pixels lies: rows from the top down, texels from left to right, the values
+/// of a texel one after the other. Values are linear radiance. `Bytes` is const std::byte or std::byte.
+template <class Bytes>
+struct BasicPixels {
+  Bytes* data = nullptr;  ///< the first value of the top left texel
+  int width = 0, height = 0, channels = 0;
+  PixelFormat format = PixelFormat::float32;
+  std::ptrdiff_t texel_bytes = 0;  ///< from one texel to the next; 0: there is nothing between them
+  std::ptrdiff_t row_bytes = 0;    ///< from one row to the next, negative from the bottom up; 0: nothing between
+};
+using Pixels = BasicPixels<const std::byte>;
+using MutablePixels = BasicPixels<std::byte>;
+
+/// Packed floats or halves as Pixels; `half` values are their bits.
+inline Pixels pixels_of(const float* data, int width, int height, int channels) {
+  return {reinterpret_cast<const std::byte*>(data), width, height, channels, PixelFormat::float32, 0, 0};
+}
+inline Pixels pixels_of(const std::uint16_t* half, int width, int height, int channels) {
+  return {reinterpret_cast<const std::byte*>(half), width, height, channels, PixelFormat::half, 0, 0};
+}
+inline MutablePixels pixels_of(float* data, int width, int height, int channels) {
+  return {reinterpret_cast<std::byte*>(data), width, height, channels, PixelFormat::float32, 0, 0};
+}
+inline MutablePixels pixels_of(std::uint16_t* half, int width, int height, int channels) {
+  return {reinterpret_cast<std::byte*>(half), width, height, channels, PixelFormat::half, 0, 0};
+}
+
+/// Copies somebody's pixels into ours. Throws Error: (mismatch) other sizes or numbers of channels,
+/// (bad_request) no data, or values that would overlap.
+WELKIN_API void copy_pixels(const Pixels& from, ImageView<float> to);
+/// The reverse. Halves are rounded to nearest, and become infinite above 65504.
+WELKIN_API void copy_pixels(ImageView<const float> from, const MutablePixels& to);
+
+}  // namespace welkin
