@@ -86,7 +86,7 @@ void write_sample(const fs::path& folder, const Sample& sample) {
   io::write(folder / (sample.name + ".ktx2"), parts, options);
 
   std::FILE* out = std::fopen((folder / (sample.name + ".json")).c_str(), "w");
-  if (out == nullptr) throw Error(sample.name + ".json cannot be written");
+  if (out == nullptr) throw Error(ErrorKind::mismatch, sample.name + ".json cannot be written");
   std::fprintf(out,
                "{\"width\":%d,\"height\":%d,\"levels\":%d,\"layers\":%d,\"faces\":%d,\"channels\":%d,"
                "\"type\":\"%s\",\"compression\":\"%s\",\"keys\":{\"welkin.parameterization\":\"cube\","
@@ -99,7 +99,7 @@ void write_sample(const fs::path& folder, const Sample& sample) {
     write_values(out, parts[i]);
   }
   std::fprintf(out, "]}\n");
-  if (std::fclose(out) != 0) throw Error(sample.name + ".json cannot be written");
+  if (std::fclose(out) != 0) throw Error(ErrorKind::mismatch, sample.name + ".json cannot be written");
 }
 
 Image read_part(io::Reader& reader, std::size_t part) {
@@ -113,22 +113,22 @@ Image read_part(io::Reader& reader, std::size_t part) {
 
 void compare(const fs::path& a_path, const fs::path& b_path) {
   const auto a = io::open(a_path), b = io::open(b_path);
-  if (a->info().parts.size() != b->info().parts.size()) throw Error("different numbers of pictures");
+  if (a->info().parts.size() != b->info().parts.size()) throw Error(ErrorKind::mismatch, "different numbers of pictures");
   for (std::size_t i = 0; i < a->info().parts.size(); ++i) {
     const io::PartInfo &of_a = a->info().parts[i], &of_b = b->info().parts[i];
     const bool same = of_a.name == of_b.name && of_a.width == of_b.width && of_a.height == of_b.height &&
                       of_a.channels == of_b.channels && of_a.type == of_b.type;
-    if (!same) throw Error(of_a.name + " and " + of_b.name + " are not alike");
+    if (!same) throw Error(ErrorKind::mismatch, of_a.name + " and " + of_b.name + " are not alike");
     const Image x = read_part(*a, i), y = read_part(*b, i);
     for (int row = 0; row < x.height(); ++row) {
       const auto bytes = static_cast<std::size_t>(x.width()) * of_a.channels.size() * sizeof(float);
       if (std::memcmp(x.at(0, row), y.at(0, row), bytes) != 0)
-        throw Error(of_a.name + " differs in row " + std::to_string(row));
+        throw Error(ErrorKind::mismatch, of_a.name + " differs in row " + std::to_string(row));
     }
   }
   for (const auto& [key, value] : a->info().attributes) {
     const auto found = b->info().attributes.find(key);
-    if (found == b->info().attributes.end() || found->second != value) throw Error("key " + key + " differs");
+    if (found == b->info().attributes.end() || found->second != value) throw Error(ErrorKind::mismatch, "key " + key + " differs");
   }
 }
 

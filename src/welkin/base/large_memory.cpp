@@ -51,6 +51,7 @@ constexpr std::size_t kHugePage = std::size_t{2} << 20;
 constexpr std::size_t kSmallest = std::size_t{64} << 10;  ///< that is cut out of a region
 constexpr std::size_t kLargest = std::size_t{32} << 20;   ///< likewise
 constexpr std::size_t kRegion = std::size_t{64} << 20;
+constexpr std::ptrdiff_t kKept = 2;  ///< regions that nobody uses
 
 /// Fresh pages, all zero, that begin at a huge page's boundary.
 std::byte* map_pages(std::size_t size) {
@@ -96,7 +97,7 @@ class Pool {
     if (!region->second.unused()) return;
     const auto unused = std::count_if(regions_.begin(), regions_.end(),
                                       [](const auto& each) { return each.second.unused(); });
-    if (unused < 2) return;
+    if (unused <= kKept) return;
     munmap(region->first, kRegion);
     regions_.erase(region);
   }

@@ -11,7 +11,7 @@ namespace welkin {
 ///
 /// Blocks of 64 KiB and more are cut out of regions of 64 MiB that ask the system for huge pages, one after
 /// the other, so that touching them for the first time costs one page fault for 2 MiB; those of over 32 MiB
-/// have regions of their own. What is given back goes to the next who asks: at most one region is kept that
+/// have regions of their own. What is given back goes to the next who asks: at most two regions are kept that
 /// nobody uses. Where the system has no such pages, and under AddressSanitizer, it is the heap's. Safe from
 /// many threads.
 class WELKIN_API LargeMemory {

@@ -6,8 +6,8 @@
 
 namespace welkin::prefilter {
 
-/// Points that are taken out of the grid, to be summed exactly: what is left has less range, so the little
-/// that a finite degree leaves out is little beside the dim directions too.
+/// Points that are taken out of the grid, to be summed exactly: what is left has less range, so what
+/// a finite degree leaves out is small relative to the dim directions too.
 struct BrightPoints {
   std::vector<float> x, y, z;  ///< directions in the source's frame
   std::vector<float> weight;   ///< channels values each, sr · radiance
@@ -16,16 +16,16 @@ struct BrightPoints {
   int count() const { return static_cast<int>(x.size()); }
 };
 
-/// Which points are taken out: the largest `always`; and as many as `maximum` when what rings is still too
-/// bright for the dimmest directions. Measured on boxes of light 7° wide, with 64 taken: at 7500 times the
-/// dimmest radiance, as weight, the worst texel is off by a third of its value.
+/// Which points are taken out: the largest `always`; and as many as `maximum` when what is left would
+/// still ring visibly in the dimmest directions. Measured on boxes of light 7° wide, with 64 taken: at 7500
+/// times the dimmest radiance, as weight, the worst texel is off by a third of its value.
 struct BrightRule {
   double contrast = 16;  ///< only weights above this many times the mean of all
   int always = 64;
   int maximum = 2048;
   double cell =
       1500;  ///< weight in a cell of 8 rows and a 32nd of a row, over the radiance of the dimmest one; sr
-  double roughness = 300;  ///< of the rest, see the source, over the same; sr
+  double roughness = 300;  ///< of the rest (see the source), over the same; sr
   double darkest = 1e-5;   ///< directions count as no darker than this part of the mean radiance
 };
 

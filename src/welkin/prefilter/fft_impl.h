@@ -27,7 +27,7 @@ struct Fft {
 
   /// a times the unit complex number (cosine, sine), or its conjugate.
   template <bool kConjugate>
-  static Complex turn(const Complex& a, const float* twiddle) {
+  static Complex times_twiddle(const Complex& a, const float* twiddle) {
     const V cosine(twiddle[0]), sine(kConjugate ? -twiddle[1] : twiddle[1]);
     return {V::fms(a.re, cosine, a.im * sine), V::fma(a.re, sine, a.im * cosine)};
   }
@@ -89,7 +89,7 @@ struct Fft {
         butterfly<kRadix, kForward>(a, b);
         b[0].store(out);
         for (int k = 1; k < kRadix; ++k) {
-          turn<kForward>(b[k], twiddle + 2 * (k - 1))
+          times_twiddle<kForward>(b[k], twiddle + 2 * (k - 1))
               .store(out + static_cast<std::ptrdiff_t>(k) * stride * 16);
         }
       }

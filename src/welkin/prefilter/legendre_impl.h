@@ -15,14 +15,14 @@ struct Legendre {
   using V = Lanes<float, Arch>;
   using D = Lanes<double, Arch>;
 
-  /// Q of a block of packs at the first degree that counts, for one parity.
+  /// Q of a block of packs at the first degree whose Q is not negligible, for one parity.
   template <int kBlock>
   struct Start {
-    int index;  ///< l − m of `now`; past the end when nothing counts
+    int index;  ///< l − m of `now`; past the end when all are negligible
     V now[kBlock], before[kBlock];
   };
 
-  /// Values below this are nothing: float32 carries on from there.
+  /// Smaller values are negligible; from here on the recurrence runs in float32.
   static constexpr double kThreshold = 1e-12;
 
   template <int kBlock>
@@ -64,7 +64,7 @@ struct Legendre {
     return out;
   }
 
-  /// To float, with what would be denormal soon made zero.
+  /// To float; what would soon be denormal is flushed to zero.
   static V narrow(const D& from) {
     alignas(64) double wide[8];
     alignas(64) float values[8];

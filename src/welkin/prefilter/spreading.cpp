@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
 
 #include "welkin/base/error.h"
+#include "welkin/base/large_memory.h"
 #include "welkin/base/parallel.h"
 #include "welkin/map/texel_points.h"
 #include "welkin/prefilter/lagrange.h"
@@ -26,7 +28,9 @@ class SpreadSums {
         height_(height),
         channels_(padded(channels)),
         stride_(static_cast<std::size_t>(width + 2 * kMargin) * static_cast<std::size_t>(channels_)),
-        weights_(stride_ * static_cast<std::size_t>(height + 2 * kMargin)) {}
+        memory_((stride_ * static_cast<std::size_t>(height + 2 * kMargin)) * sizeof(float),
+                LargeMemory::Contents::zero),
+        weights_(reinterpret_cast<float*>(memory_.data())) {}
 
   /// Four values at a time: `radiance` has room for that.
   static constexpr int padded(int channels) { return (channels + 3) / 4 * 4; }
@@ -43,7 +47,7 @@ class SpreadSums {
     lagrange6(y - static_cast<float>(top), wy);
     const int column = std::clamp(left, -1, width_ - 1) - 2 + kMargin;
     const int row = std::clamp(top, -1, height_ - 1) - 2 + kMargin;
-    float* to = weights_.data() + static_cast<std::size_t>(row) * stride_ +
+    float* to = weights_ + static_cast<std::size_t>(row) * stride_ +
                 static_cast<std::size_t>(column) * static_cast<std::size_t>(channels_);
     for (int first = 0; first < channels_; first += 4) {
       float part[4];
@@ -80,7 +84,7 @@ class SpreadSums {
   static constexpr int kMargin = 3;
 
   float* at(int x, int y) {
-    return weights_.data() + static_cast<std::size_t>(y + kMargin) * stride_ +
+    return weights_ + static_cast<std::size_t>(y + kMargin) * stride_ +
            static_cast<std::size_t>((x + kMargin) * channels_);
   }
   void move(int x, int y, int to_x, int to_y) {
@@ -93,7 +97,8 @@ class SpreadSums {
 
   int width_, height_, channels_;
   std::size_t stride_;
-  std::vector<float> weights_;
+  LargeMemory memory_;
+  float* weights_;
 };
 
 /// A batch of points on their way to the grid. Directions needn't be of length 1.
@@ -291,19 +296,19 @@ void spread_texels(const Map& map, PointGrid& grid, const Monitor& monitor) {
   const int rows = map.charts() * map.height();
   // The number of sums doesn't depend on the number of threads, so neither do the sums.
   const int slices = std::min(8, rows);
-  std::vector<SpreadSums> sums;
-  for (int i = 0; i < slices; ++i) sums.emplace_back(width, height, n);
+  std::vector<std::optional<SpreadSums>> sums(static_cast<std::size_t>(slices));
   parallel_for(
       slices,
       [&](int slice) {
         const auto first = [&](int i) {
           return static_cast<int>(static_cast<std::int64_t>(rows) * i / slices);
         };
+        SpreadSums& own = sums[static_cast<std::size_t>(slice)].emplace(width, height, n);
         for (int row = first(slice); row < first(slice + 1); ++row) {
           if (monitor.cancelled && monitor.cancelled()) throw Cancelled();
-          spreader.row(row / map.height(), row % map.height(), sums[static_cast<std::size_t>(slice)]);
+          spreader.row(row / map.height(), row % map.height(), own);
         }
-        sums[static_cast<std::size_t>(slice)].fold();
+        own.fold();
       },
       monitor);
   parallel_for(grid.packs, [&](int pack) {
@@ -313,8 +318,8 @@ void spread_texels(const Map& map, PointGrid& grid, const Monitor& monitor) {
         float* to = grid.at(pack, c) + lane;
         for (int x = 0; x < width; ++x) to[x * 16] = 0;
         if (north >= height / 2) continue;
-        for (SpreadSums& each : sums) {
-          const float* from = each.row(y) + c;
+        for (auto& each : sums) {
+          const float* from = each->row(y) + c;
           for (int x = 0; x < width; ++x) to[x * 16] += from[x * SpreadSums::padded(n)];
         }
       }

@@ -17,7 +17,7 @@ struct WidenedLobe {
   std::vector<double> zonal;  ///< its coefficients, as far as they matter
   int degree() const { return static_cast<int>(zonal.size()) - 1; }
   double sigma = 0;     ///< of the Gaussian, radians; 0 when the lobe is as it was
-  bool smooth = false;  ///< what is left out is nothing, even beside light that is bright beyond measure
+  bool smooth = false;  ///< what is left out is negligible even beside the brightest light
 };
 
 /// The lobe as wide as texels of `texel` radians need it. `tolerance`: degrees whose coefficients matter less
