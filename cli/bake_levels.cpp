@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-
-
 namespace welkin::cli {
 
 void BakeLevels::add(CLI::App& command) {
@@ -57,8 +55,7 @@ void BakeLevels::parse(const std::string& out, const WriteFlags& write) {
     options.levels = count.value_or(0);
     options.mirror_level0 = level0 == "source";
     if (!roughness.empty()) {
-      options.curve =
-          parse_option("--roughness", [&] { return lobe::RoughnessCurve::from_name(roughness); });
+      options.curve = parse_option("--roughness", [&] { return lobe::RoughnessCurve::from_name(roughness); });
     }
   }
   const ChartSize finest = default_bake_size(options);

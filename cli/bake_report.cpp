@@ -93,14 +93,13 @@ void BakeReport::print() const {
 
 void BakeReport::print_json() const {
   const BakeLevels& m = *made;
-  ordered_json report{
-      {"in", in},
-      {"out", out},
-      {"lobe", notes.lobe},
-      {"roughness_curve", notes.curve.empty() ? ordered_json() : ordered_json(notes.curve)},
-      {"normalisation", notes.normalisation},
-      {"parameterization", m.shape->text()},
-      {"tolerance", made->options.prefilter.tolerance}};
+  ordered_json report{{"in", in},
+                      {"out", out},
+                      {"lobe", notes.lobe},
+                      {"roughness_curve", notes.curve.empty() ? ordered_json() : ordered_json(notes.curve)},
+                      {"normalisation", notes.normalisation},
+                      {"parameterization", m.shape->text()},
+                      {"tolerance", made->options.prefilter.tolerance}};
   for (std::size_t i = 0; i < m.levels.size(); ++i) {
     ordered_json level{{"level", i},
                        {"width", m.levels[i].size.width},

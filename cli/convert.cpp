@@ -81,7 +81,8 @@ void Convert::run() const {
     chain.levels.push_back(converted(source, shape->parameterization, chain_size(finest, level), options));
   }
   end_progress();
-  if (sanitize) tell(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
+  if (sanitize)
+    tell(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
   report_losses(out, write_chain(out, chain, shape->layout, write_options));
 }
 

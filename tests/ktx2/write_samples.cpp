@@ -113,7 +113,8 @@ Image read_part(io::Reader& reader, std::size_t part) {
 
 void compare(const fs::path& a_path, const fs::path& b_path) {
   const auto a = io::open(a_path), b = io::open(b_path);
-  if (a->info().parts.size() != b->info().parts.size()) throw Error(ErrorKind::mismatch, "different numbers of pictures");
+  if (a->info().parts.size() != b->info().parts.size())
+    throw Error(ErrorKind::mismatch, "different numbers of pictures");
   for (std::size_t i = 0; i < a->info().parts.size(); ++i) {
     const io::PartInfo &of_a = a->info().parts[i], &of_b = b->info().parts[i];
     const bool same = of_a.name == of_b.name && of_a.width == of_b.width && of_a.height == of_b.height &&
@@ -128,7 +129,8 @@ void compare(const fs::path& a_path, const fs::path& b_path) {
   }
   for (const auto& [key, value] : a->info().attributes) {
     const auto found = b->info().attributes.find(key);
-    if (found == b->info().attributes.end() || found->second != value) throw Error(ErrorKind::mismatch, "key " + key + " differs");
+    if (found == b->info().attributes.end() || found->second != value)
+      throw Error(ErrorKind::mismatch, "key " + key + " differs");
   }
 }
 

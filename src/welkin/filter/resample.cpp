@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "welkin/base/parallel.h"
 #include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/filter/resample_job.h"
 #include "welkin/map/borders.h"
 

@@ -23,11 +23,11 @@ struct ResampleOptions {
   Monitor monitor;
 };
 
-/// Fills the target's charts from the source, whose borders must be filled, and then the target's borders. Both have the
-/// same number of channels. Reads the source only; besides it needs at most a pyramid of a third of the
-/// source, and only to minify more than sixteenfold. Positions are exact to 1e-6 of a chart's side; the error
-/// of `automatic` against exact area sampling is measured in docs/benchmarks.md. Throws Error (bad_request) for
-/// maps of other numbers of channels; Cancelled.
+/// Fills the target's charts from the source, whose borders must be filled, and then the target's borders.
+/// Both have the same number of channels. Reads the source only; besides it needs at most a pyramid of a
+/// third of the source, and only to minify more than sixteenfold. Positions are exact to 1e-6 of a chart's
+/// side; the error of `automatic` against exact area sampling is measured in docs/benchmarks.md. Throws Error
+/// (bad_request) for maps of other numbers of channels; Cancelled.
 ///
 /// A target of the source's own parameterization, size and orientation gets the texels as they are.
 WELKIN_API void resample(const Map& source, Map& target, const ResampleOptions& options = {});

@@ -18,6 +18,7 @@ namespace welkin {
 /// Directions that the source does not show count as `fill`, and so does a texel none of whose points is a
 /// place of the target. Fills the target's charts, not its borders. samples ≥ 1; both maps have the same
 /// number of channels. Error: float rounding of the result. Throws Cancelled.
-WELKIN_API void resample_reference(const Map& source, Map& target, const ResampleOptions& options, int samples);
+WELKIN_API void resample_reference(const Map& source, Map& target, const ResampleOptions& options,
+                                   int samples);
 
 }  // namespace welkin

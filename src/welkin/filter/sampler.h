@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
-#include "welkin/base/export.h"
 #include "welkin/base/error.h"
+#include "welkin/base/export.h"
 #include "welkin/filter/filter.h"
 #include "welkin/map/chain.h"
 

@@ -64,8 +64,7 @@ void copy_pixels(ImageView<const float> from, const MutablePixels& to) {
       std::memcpy(bytes, &bits, sizeof bits);
     });
   } else {
-    for_each_value(to, from,
-                   [](std::byte* bytes, float value) { std::memcpy(bytes, &value, sizeof value); });
+    for_each_value(to, from, [](std::byte* bytes, float value) { std::memcpy(bytes, &value, sizeof value); });
   }
 }
 

@@ -22,7 +22,8 @@ struct BasicPixels {
   int width = 0, height = 0, channels = 0;
   PixelFormat format = PixelFormat::float32;
   std::ptrdiff_t texel_bytes = 0;  ///< from one texel to the next; 0: there is nothing between them
-  std::ptrdiff_t row_bytes = 0;    ///< from one row to the next, negative from the bottom up; 0: nothing between
+  std::ptrdiff_t row_bytes =
+      0;  ///< from one row to the next, negative from the bottom up; 0: nothing between
 };
 using Pixels = BasicPixels<const std::byte>;
 using MutablePixels = BasicPixels<std::byte>;

@@ -44,8 +44,8 @@ TEST(Formats, AreKnownByTheirBytesNotTheirName) {
     const auto reader = open(folder / "misleading.exr");
     const std::vector<Format>& all = formats();
     const auto format = std::find_if(all.begin(), all.end(), [&](const Format& each) {
-      return std::count(each.capabilities.extensions.begin(), each.capabilities.extensions.end(),
-                        extension) > 0;
+      return std::count(each.capabilities.extensions.begin(), each.capabilities.extensions.end(), extension) >
+             0;
     });
     EXPECT_EQ(reader->info().format, format->capabilities.format);
     EXPECT_EQ(reader->info().bytes, fs::file_size(folder / "misleading.exr"));

@@ -148,16 +148,17 @@ class ModelOf final : public AnyLobe::Model {
 ///
 ///     static constexpr const char* kName    its name, which differs from those of `lobe_names`
 ///     template <class T> T weight(T s) const
-///                                           w(s), s = 1 − cos θ from 0 to 2, for double and float: finite, not
-///                                           negative, not normalised
-///     double width() const                  radians: about where the weight has fallen to half of its largest
-///     std::vector<double> breakpoints() const
+///                                           w(s), s = 1 − cos θ from 0 to 2, for double and float: finite,
+///                                           not negative, not normalised
+///     double width() const                  radians: about where the weight has fallen to half of its
+///     largest std::vector<double> breakpoints() const
 ///                                           the s between 0 and 2 where w isn't smooth
 ///
-/// and where it likes kDescription, kSource, mirror(), integral(), visit_parameters and visit_synonyms, as the
-/// lobes of the library have them (all.h in its source).
+/// and where it likes kDescription, kSource, mirror(), integral(), visit_parameters and visit_synonyms, as
+/// the lobes of the library have them (all.h in its source).
 template <class L>
-concept Lobe = std::default_initializable<L> && std::copyable<L> && requires(const L& lobe, double s, float f) {
+concept Lobe = std::default_initializable<L> && std::copyable<L> &&
+    requires(const L& lobe, double s, float f) {
   { L::kName } -> std::convertible_to<const char*>;
   { lobe.template weight<double>(s) } -> std::same_as<double>;
   { lobe.template weight<float>(f) } -> std::same_as<float>;
@@ -165,8 +166,8 @@ concept Lobe = std::default_initializable<L> && std::copyable<L> && requires(con
   { lobe.breakpoints() } -> std::convertible_to<std::vector<double>>;
 };
 
-/// The lobe of this struct. Throws Error (bad_request) when its width makes no sense. Its spec is its name and
-/// parameters, which AnyLobe::make doesn't know.
+/// The lobe of this struct. Throws Error (bad_request) when its width makes no sense. Its spec is its name
+/// and parameters, which AnyLobe::make doesn't know.
 template <Lobe L>
 AnyLobe make_lobe(L lobe = {}) {
   return AnyLobe::from_model(std::make_shared<ModelOf<L>>(std::move(lobe)));

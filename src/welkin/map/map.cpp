@@ -19,8 +19,8 @@ Level::Level(int charts, int width, int height, int channels, PixelContents cont
                                             std::to_string(kLargestSide / charts) + ")");
   }
   if (channels < 1 || channels > kMaxChannels) {
-    throw Error(ErrorKind::bad_request, "a map has 1 to " + std::to_string(kMaxChannels) +
-                                            " channels, not " + std::to_string(channels));
+    throw Error(ErrorKind::bad_request, "a map has 1 to " + std::to_string(kMaxChannels) + " channels, not " +
+                                            std::to_string(channels));
   }
   storage_ = Image(width + 2 * kBorder, (height + 2 * kBorder) * charts, channels, contents);
 }

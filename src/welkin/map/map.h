@@ -61,8 +61,8 @@ struct WELKIN_API Map {
       PixelContents contents = PixelContents::zero);
 
   /// A map of somebody's pixels, copied once: those of each chart, all of one size and number of channels, in
-  /// the parameterization's order of charts. Its borders are filled. Throws Error (mismatch) for another number
-  /// of charts or for sizes that differ, and as copy_pixels does.
+  /// the parameterization's order of charts. Its borders are filled. Throws Error (mismatch) for another
+  /// number of charts or for sizes that differ, and as copy_pixels does.
   static Map from_pixels(const sphere::AnyParameterization& parameterization, std::span<const Pixels> charts);
   /// The same of a single chart.
   static Map from_pixels(const sphere::AnyParameterization& parameterization, const Pixels& chart);
@@ -83,7 +83,7 @@ WELKIN_API std::vector<std::string> default_channel_names(int count);
 
 /// Solid angle of every texel of a chart's row, sr: `out` has the level's width. Texels that are not valid
 /// get 0.
-WELKIN_API void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart,
-                        int row, float* out);
+WELKIN_API void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height,
+                                   int chart, int row, float* out);
 
 }  // namespace welkin

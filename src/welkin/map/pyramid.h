@@ -16,11 +16,12 @@ enum class TexelWeight {
 /// The next coarser level: half the size in each axis, rounded up (an odd side's texels are shared between
 /// their neighbours by overlap). Its borders are filled. `finer`'s own border is not read.
 WELKIN_API Level reduce(const sphere::AnyParameterization& parameterization, const Level& finer,
-             TexelWeight weight = TexelWeight::solid_angle);
+                        TexelWeight weight = TexelWeight::solid_angle);
 
 /// Levels 1 … `levels` of a map (its own is level 0), fewer when a side reaches one texel before. They need
 /// about a third of the map's memory.
-WELKIN_API std::vector<Level> make_pyramid(const Map& map, int levels, TexelWeight weight = TexelWeight::solid_angle);
+WELKIN_API std::vector<Level> make_pyramid(const Map& map, int levels,
+                                           TexelWeight weight = TexelWeight::solid_angle);
 
 /// How many levels lie between a map of this size and one texel.
 WELKIN_API int levels_below(int width, int height);

@@ -62,32 +62,35 @@ WELKIN_API MapShape for_chart_size(const MapShape& shape, ChartSize size);
 
 /// The layout for a map whose orientation is a reflection. Its native faces are unmirrored pictures already,
 /// so cells aren't mirrored, and where faces adjoin, +X and −X change places.
-WELKIN_API Layout for_reflected_world(const Layout& layout, const sphere::AnyParameterization& parameterization);
+WELKIN_API Layout for_reflected_world(const Layout& layout,
+                                      const sphere::AnyParameterization& parameterization);
 
 /// Another order and turn of the charts: `px,nx,py:90,ny:270:mirror,pz,nz` names the chart of each of the
 /// layout's cells in reading order, and how its picture is turned clockwise (after mirroring) beyond what the
 /// layout does. Also `+X` for `px`.
 WELKIN_API Layout with_faces(const Layout& layout, const sphere::AnyParameterization& parameterization,
-                  std::string_view faces);
+                             std::string_view faces);
 
 /// Size of a chart in a picture of this size, or nothing when the grid doesn't divide it.
-WELKIN_API std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, int picture_height);
+WELKIN_API std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width,
+                                                  int picture_height);
 
 /// Throws Error when the layout turns a cell by 90° or 270° and charts of this size, not being square, would
 /// no longer fit the grid.
 WELKIN_API void check_turns(const Layout& layout, ChartSize size);
 
 /// Copies a chart out of a cell's pixels, or into them. Sizes match (swapped for odd quarter turns).
-WELKIN_API void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart);
+WELKIN_API void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture,
+                               ImageView<float> chart);
 WELKIN_API void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture);
 /// The second for some of the cell's rows, from `first` on.
 WELKIN_API void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int first,
-                       ImageView<float> rows);
+                                  ImageView<float> rows);
 
 /// Rows of a layout's picture, from row `first` on: all cells, each with the chart of its number in `charts`,
 /// and black where there is none. Charts are of one size.
 WELKIN_API void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
-               ImageView<float> rows);
+                          ImageView<float> rows);
 
 /// The rectangle of a cell in a picture.
 template <class T>

@@ -158,7 +158,8 @@ io::WriteReport map_file::write_levels(const Destination& destination, std::span
         placed.cells.size(),
         [&](std::size_t i) {
           pictures.drop();
-          return io::WriteFile{chart_path(destination.path, names[i]), {pictures.of_cell(finest, placed.cells[i])}};
+          return io::WriteFile{chart_path(destination.path, names[i]),
+                               {pictures.of_cell(finest, placed.cells[i])}};
         },
         image);
   }

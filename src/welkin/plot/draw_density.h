@@ -14,6 +14,7 @@ namespace welkin {
 ///
 /// Linear sRGB. The charts are as large as those of the report, which density_of made of the
 /// parameterization.
-WELKIN_API Image draw_density(const sphere::AnyParameterization& parameterization, const DensityReport& report);
+WELKIN_API Image draw_density(const sphere::AnyParameterization& parameterization,
+                              const DensityReport& report);
 
 }  // namespace welkin

@@ -35,7 +35,8 @@ bool drops_alpha(const Map& map, bool keep_alpha) {
 }
 
 PrefilterShape shape_of(const Map& map, bool keep_alpha) {
-  return {map.parameterization, {map.width(), map.height()}, drops_alpha(map, keep_alpha) ? 3 : map.channels()};
+  return {
+      map.parameterization, {map.width(), map.height()}, drops_alpha(map, keep_alpha) ? 3 : map.channels()};
 }
 
 }  // namespace
@@ -43,8 +44,7 @@ PrefilterShape shape_of(const Map& map, bool keep_alpha) {
 ChartSize default_bake_size(const BakeOptions& options) {
   if (options.size) return *options.size;
   if (options.lobe.name() == "lambert" && options.target.traits().latlong_grid) return kDiffuseLatlong;
-  const bool wide =
-      !is_chain(options) && !options.lobe.is_mirror() && options.lobe.width() >= kWide;
+  const bool wide = !is_chain(options) && !options.lobe.is_mirror() && options.lobe.width() >= kWide;
   return size_like_cube(options.target, wide ? kWideFace : kChainFace);
 }
 

@@ -14,8 +14,8 @@ namespace welkin {
 
 struct BakeOptions {
   lobe::AnyLobe lobe = lobe::AnyLobe::make("ggx");
-  /// true: a chain over the lobe's roughness, where it has one. false: one level, filtered with the lobe as it
-  /// is.
+  /// true: a chain over the lobe's roughness, where it has one. false: one level, filtered with the lobe as
+  /// it is.
   bool chain = true;
   /// Which roughness each level of a chain has.
   lobe::RoughnessCurve curve = lobe::RoughnessCurve::from_name("linear");

@@ -13,8 +13,9 @@ namespace welkin {
 /// curve's roughness there. Where a named curve is below the lobe's least roughness, as `charlie` has one, it
 /// is half of the next level's. Throws Error: a lobe without roughness, a list for another number of levels
 /// or with a roughness below the lobe's least.
-WELKIN_API std::vector<PrefilterLevel> roughness_levels(const lobe::AnyLobe& lobe, const lobe::RoughnessCurve& curve,
-                                             ChartSize finest, int count);
+WELKIN_API std::vector<PrefilterLevel> roughness_levels(const lobe::AnyLobe& lobe,
+                                                        const lobe::RoughnessCurve& curve, ChartSize finest,
+                                                        int count);
 
 /// The lobe's own roughness, or none where it has none: 1/exponent of phong.
 WELKIN_API std::optional<double> roughness_of(const lobe::AnyLobe& lobe);

@@ -181,7 +181,8 @@ class Verifier {
         reference_(source) {
     const std::vector<Vec3d> lights = brightest_lights(source, kLights);
     for (std::size_t i = 0; i < levels.size(); ++i) {
-      const bool mirror = levels[i].lobe.is_mirror(), integral = options.prefilter.scale == LobeScale::integral;
+      const bool mirror = levels[i].lobe.is_mirror(),
+                 integral = options.prefilter.scale == LobeScale::integral;
       lobes_.push_back(furnace_plan_.methods()[i].lobe);
       one_.push_back(integral && !mirror ? levels[i].lobe.integral() : 1);
       compared_.push_back(mirror ? Compared{} : compared_texels(maps[i], lights, options));

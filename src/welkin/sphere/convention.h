@@ -38,6 +38,7 @@ WELKIN_API const Convention& convention_from_name(std::string_view name);
 
 /// The orientation of a map of this parameterization in a file of this convention. Identity for those that
 /// no program has a convention for (Projection::unturned: photographs of balls, the half-cube).
-WELKIN_API Matrix3 orientation_for(const Convention& convention, const sphere::AnyParameterization& parameterization);
+WELKIN_API Matrix3 orientation_for(const Convention& convention,
+                                   const sphere::AnyParameterization& parameterization);
 
 }  // namespace welkin
