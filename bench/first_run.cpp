@@ -43,7 +43,7 @@ Cost cost_of_chain(const welkin::Map& source) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 2) throw welkin::Error("first_run MAP");
+  if (argc != 2) throw welkin::Error(welkin::ErrorKind::mismatch, "first_run MAP");
   const welkin::bench::Threads threads;
   const welkin::Map source = welkin::read_map(argv[1]).map;
   const Cost first = cost_of_chain(source);

@@ -5,12 +5,11 @@
 #include <cstdio>
 
 int main(int argc, char** argv) try {
-  if (argc != 3) throw welkin::Error("usage: convert_map IN OUT");
+  if (argc != 3) return std::fprintf(stderr, "usage: convert_map IN OUT\n"), 2;
   const welkin::LoadedMap input = welkin::read_map(argv[1]);
-  const welkin::MapShape shape = welkin::parse_map_shape("cube:hcross");
-  welkin::Map cube(shape.parameterization, 256, 256, input.map.channels());
+  welkin::Map cube(welkin::sphere::AnyParameterization::make("cube"), 256, 256, input.map.channels());
   welkin::resample(input.map, cube);
-  welkin::write_map(argv[2], cube, shape.layout);
+  welkin::write_map(argv[2], cube);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "convert_map: %s\n", error.what());
   return 1;

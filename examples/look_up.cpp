@@ -8,7 +8,7 @@
 #include <vector>
 
 int main(int argc, char** argv) try {
-  if (argc != 2) throw welkin::Error("usage: look_up MAP");
+  if (argc != 2) return std::fprintf(stderr, "usage: look_up MAP\n"), 2;
   const welkin::Sampler sampler(welkin::read_map(argv[1]).map, {.levels = 0});
   const auto channels = static_cast<std::size_t>(sampler.channels());
 
@@ -39,7 +39,7 @@ int main(int argc, char** argv) try {
   }
   for (std::thread& thread : threads) thread.join();
   sampler.look_up(directions, again);
-  if (all != again) throw welkin::Error("threads disagree");
+  if (all != again) return std::puts("the threads disagree"), 1;
   double sum = 0;
   for (std::size_t i = 0; i < kCount; ++i) sum += static_cast<double>(all[i * channels]);
   std::printf("mean over the sphere %g\n", sum / kCount);

@@ -1,14 +1,19 @@
 #!/usr/bin/env bash
 # Installs a build to a temporary folder, moves it, and uses it as a stranger would:
-#   - every installed header compiles, and none needs more than the standard library and TBB;
-#   - examples/ builds with find_package(welkin), and with pkg-config, and converts a map;
-#   - what it wrote agrees with `welkin convert`.
+#   - the installed headers are those of public_headers.txt, each compiles alone, and none needs more than the standard library;
+#   - examples/ builds with find_package(welkin) against the static library and against the shared one, and every example runs;
+#   - with pkg-config too;
+#   - what examples write agrees with `welkin convert`;
+#   - the shared library shows the symbols that exported_symbols.txt names, and no others (but for the standard library's
+#     templates of our types, which the compiler decides on).
 #
-# install_test.sh BUILD_FOLDER
+# install_test.sh BUILD_FOLDER             checks
+# install_test.sh BUILD_FOLDER --update    writes src/welkin/exported_symbols.txt
 set -euo pipefail
 
-(($# == 1)) || { printf 'usage: install_test.sh BUILD_FOLDER\n' >&2; exit 2; }
+(($# == 1)) || { (($# == 2)) && [[ $2 == --update ]]; } || { printf 'usage: install_test.sh BUILD_FOLDER [--update]\n' >&2; exit 2; }
 build=$(cd -- "$1" && pwd -P)
+update=${2:-}
 source=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
@@ -41,25 +46,52 @@ read -ra link_flags < <(flags --libs)
 read -ra static_link_flags < <(flags --static --libs)
 
 # ----------------------------------------------------------------------------------------------------- headers
-mapfile -t headers < <(cd "$prefix/include" && find welkin -name '*.h' | sort)
-((${#headers[@]} > 20)) || fail "only ${#headers[@]} headers are installed"
-for wanted in map_file/map_file.h filter/resample.h filter/sample.h io/image_file.h sphere/registry.h synth/synth.h; do
-  [[ -f $prefix/include/welkin/$wanted ]] || fail "welkin/$wanted is not installed"
+mapfile -t headers < <(cd "$prefix/include/welkin" && find . -name '*.h' | sed 's|^\./||' | LC_ALL=C sort)
+mapfile -t listed < <(grep '^[a-z]' "$source/src/welkin/public_headers.txt" | LC_ALL=C sort)
+[[ ${headers[*]} == "${listed[*]}" ]] || fail "other headers are installed than public_headers.txt lists: ${headers[*]}"
+for header in "${headers[@]}"; do
+  printf '#include <welkin/%s>\n' "$header" >"$work/alone.cpp"
+  "${compiler[@]}" -std=c++20 -Wall -Wextra -Wconversion -Werror -fsyntax-only "${compile_flags[@]}" -MD -MF "$work/alone.d" \
+    "$work/alone.cpp" || fail "welkin/$header does not compile alone"
+  if grep -oE '[^ ]*/(xsimd|gtest|CLI|fmt|nlohmann|OpenEXR|Imath|tbb|oneapi)/[^ ]*' "$work/alone.d"; then
+    fail "welkin/$header includes these"
+  fi
 done
-printf '#include <%s>\n' "${headers[@]}" >"$work/all.cpp"
-printf '%s\n' "${headers[@]}" | tac | sed 's/.*/#include <&>/' >"$work/reversed.cpp"
-for file in all reversed; do
-  "${compiler[@]}" -std=c++20 -Wall -Wextra -Werror -fsyntax-only "${compile_flags[@]}" -MD -MF "$work/$file.d" "$work/$file.cpp" ||
-    fail 'the installed headers do not compile'
-done
-if grep -oE '[^ ]*/(xsimd|gtest|CLI|fmt|nlohmann|OpenEXR|Imath)/[^ ]*' "$work/all.d"; then fail 'the installed headers include these'; fi
+
+# ------------------------------------------------------------------------------------------- the shared library's face
+shared=$(find "$prefix" -name 'libwelkin.so' | head -n 1)
+if [[ -n $shared ]]; then
+  nm -D --defined-only -C "$shared" | sed -E 's/^[0-9a-f]* [A-Za-z] //' | grep -v '^WELKIN' | grep -vE '^[^(]* std::' | LC_ALL=C sort -u >"$work/symbols"
+  expected=$source/src/welkin/exported_symbols.txt
+  if [[ -n $update ]]; then
+    { printf '# What the shared library shows: tests/install_test.sh BUILD_FOLDER --update writes this.\n'; cat "$work/symbols"; } >"$expected"
+  fi
+  if ! diff <(grep -v '^#' "$expected") "$work/symbols"; then
+    fail 'the shared library shows other symbols than exported_symbols.txt (< expected, > found); --update writes them'
+  fi
+fi
 
 # ---------------------------------------------------------------------------------------------------- examples
-build_by_find_package() {
-  "$cmake" -G "$generator" -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_CXX_COMPILER="${compiler[0]}" -DCMAKE_CXX_FLAGS="${compiler[*]:1}" && "$cmake" --build "$work/examples"
-}
-build_by_find_package >"$work/cmake.log" 2>&1 || { cat "$work/cmake.log"; fail 'examples/ does not build with find_package(welkin)'; }
+kinds=(welkin)
+if find "$prefix" -name 'libwelkin.a' | grep -q . && [[ -n $shared ]]; then kinds=(static shared); fi
+libraries=$(dirname "$(find "$prefix" -name 'libwelkin.*' | head -n 1)")
+export LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+ctest=$(dirname "$cmake")/ctest
+for kind in "${kinds[@]}"; do
+  build_examples() {
+    "$cmake" -G "$generator" -S "$source/examples" -B "$work/$kind" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+      -DWELKIN_KIND="$kind" -DCMAKE_CXX_COMPILER="${compiler[0]}" -DCMAKE_CXX_FLAGS="${compiler[*]:1}" &&
+      "$cmake" --build "$work/$kind" && "$ctest" --test-dir "$work/$kind" --output-on-failure
+  }
+  build_examples >"$work/$kind.log" 2>&1 || { cat "$work/$kind.log"; fail "examples/ fails with find_package(welkin), $kind"; }
+  mapfile -t programs < <(find "$work/$kind" -maxdepth 1 -type f -perm -u+x -printf '%f\n')
+  ((${#programs[@]} >= 10)) || fail "only ${#programs[@]} examples were built"
+done
+if [[ ${kinds[0]} == static ]]; then
+  if nm -u "$work/static/bake_map" | grep -q 'welkin'; then fail 'the static examples lean on a shared library'; fi
+  nm -u -C "$work/shared/bake_map" | grep -q 'welkin::bake' || fail 'the shared examples lean on no shared library'
+fi
+
 build_by_pkg_config() {
   "${compiler[@]}" -std=c++20 -O2 "${compile_flags[@]}" "$source/examples/convert_map.cpp" -o "$work/$1" "${@:2}" ||
     fail "examples/convert_map.cpp does not build with pkg-config ($1)"
@@ -67,22 +99,19 @@ build_by_pkg_config() {
 build_by_pkg_config by-libs "${link_flags[@]}"
 build_by_pkg_config by-static-libs "${static_link_flags[@]}"
 
-# A shared library is found by the examples where it lies; a static one needs nothing.
-libraries=$(dirname "$(find "$prefix" -name 'libwelkin.*' | head -n 1)")
-export LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 welkin=$prefix/bin/welkin
 "$welkin" synth axes "$work/axes.exr" --size 512
 "$welkin" convert "$work/axes.exr" "$work/expected.exr" --to cube --size 256
-for program in "$work/examples/convert_map" "$work/by-libs" "$work/by-static-libs"; do
+for program in "${kinds[@]/%//convert_map}" by-libs by-static-libs; do
   rm -f "$work/cube.exr"
-  "$program" "$work/axes.exr" "$work/cube.exr" || fail "$(basename "$program") failed"
+  "$work/$program" "$work/axes.exr" "$work/cube.exr" || fail "$program failed"
   "$welkin" diff "$work/expected.exr" "$work/cube.exr" --fail-above 1e-6 >"$work/diff.log" ||
-    { cat "$work/diff.log"; fail "$(basename "$program") writes another map than welkin convert"; }
+    { cat "$work/diff.log"; fail "$program writes another map than welkin convert"; }
 done
-from_example=$("$work/examples/sample_direction" "$work/cube.exr" 1 2 3 | tr '\n' ' ')
+from_example=$("$work/${kinds[0]}/sample_direction" "$work/cube.exr" 1 2 3 | tr '\n' ' ')
 from_command=$("$welkin" sample "$work/cube.exr" --dir 1,2,3 --filter bicubic | tr '\n' ' ')
 [[ $from_example == "$from_command" ]] || fail "sample_direction says $from_example, welkin sample $from_command"
-if "$work/examples/convert_map" "$work/missing.exr" "$work/cube.exr" 2>"$work/error"; then fail 'a missing file is no error'; fi
+if "$work/by-libs" "$work/missing.exr" "$work/cube.exr" 2>"$work/error"; then fail 'a missing file is no error'; fi
 grep -q missing.exr "$work/error" || fail "the error does not name the file: $(cat "$work/error")"
 
-printf '%d headers, 2 examples with find_package, 1 with pkg-config\n' "${#headers[@]}"
+printf '%d headers; %d examples, built and run %s; 1 with pkg-config\n' "${#headers[@]}" "${#programs[@]}" "${kinds[*]}"

@@ -22,6 +22,8 @@ struct Format {
   WriteReport (*write)(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
   /// Whether `write` takes parts that are drawn when they are written; for others they are drawn before.
   bool draws_rows = false;
+  /// Checks type and compression in the format's own words; null where the capabilities say all there is.
+  void (*check)(const WriteOptions& options) = nullptr;
 };
 
 /// All formats, in the order in which `matches` is asked.

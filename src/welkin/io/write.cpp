@@ -17,9 +17,15 @@ const Format& format_named(std::string_view name) {
 }
 
 /// Throws for what the format can't hold of a picture.
-void check_picture(const Capabilities& format, const WritePart& part, const WriteOptions& options) {
-  const PixelType type = pixel_type(options, format.types, format.title);
-  compression(options, format.compressions, format.title);
+void check_picture(const Format& chosen, const WritePart& part, const WriteOptions& options) {
+  const Capabilities& format = chosen.capabilities;
+  PixelType type = options.type.value_or(format.types.front());
+  if (chosen.check != nullptr) {
+    chosen.check(options);
+  } else {
+    type = pixel_type(options, format.types, format.title);
+    compression(options, format.compressions, format.title);
+  }
   checked_quality(options);
   const bool packed = type == PixelType::rgb9e5 || type == PixelType::r11g11b10;
   if (format.channels != Channels::any) {
@@ -30,9 +36,9 @@ void check_picture(const Capabilities& format, const WritePart& part, const Writ
 }
 
 /// Throws Error (bad_request) for parts that break WritePart's contract, and what the format can't hold.
-void check_parts(const Capabilities& format, std::span<const WritePart> parts, const WriteOptions& options) {
+void check_parts(const Format& format, std::span<const WritePart> parts, const WriteOptions& options) {
   require(!parts.empty(), "there is no picture to write");
-  if (!format.pictures) only_part(parts, format.title);
+  if (!format.capabilities.pictures) only_part(parts, format.capabilities.title);
   for (const WritePart& part : parts) {
     require((part.image.data != nullptr || part.draw) && part.image.width > 0 && part.image.height > 0,
             "a picture to write has no pixels");
@@ -72,7 +78,7 @@ void for_file(const std::filesystem::path& path, const Step& step) {
 WriteReport write(ByteSink& sink, std::string_view format, std::span<const WritePart> parts,
                   const WriteOptions& options) {
   const Format& chosen = format_named(format);
-  check_parts(chosen.capabilities, parts, options);
+  check_parts(chosen, parts, options);
   std::vector<WritePart> own(parts.begin(), parts.end());
   return write_parts(chosen, sink, own, options);
 }
@@ -84,10 +90,10 @@ WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size
   for (std::size_t i = 0; i < count; ++i) {
     WriteFile file = next(i);
     for_file(file.path, [&] {
-      const Capabilities& format = capabilities_for(file.path);
+      const Format& format = format_named(capabilities_for(file.path).format);
       check_parts(format, file.parts, options);
       written.emplace_back(file.path, std::make_unique<OutputFile>(file.path));
-      add(total, write_parts(format_named(format.format), *written.back().second, file.parts, options));
+      add(total, write_parts(format, *written.back().second, file.parts, options));
     });
   }
   for (const auto& each : written) {
@@ -111,7 +117,7 @@ void check_write(const std::filesystem::path& path, int width, int height,
   for_file(path, [&] {
     const WritePart part{"", {nullptr, width, height, static_cast<int>(channels.size()), 0}, channels, 0, 0,
                          0};
-    check_picture(capabilities_for(path), part, options);
+    check_picture(format_named(capabilities_for(path).format), part, options);
     const OutputFile unwritten(path);
   });
 }

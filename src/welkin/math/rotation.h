@@ -15,7 +15,7 @@ struct Matrix3 {
   friend bool operator==(const Matrix3&, const Matrix3&) = default;
 };
 
-Matrix3 operator*(const Matrix3& a, const Matrix3& b);
+WELKIN_API Matrix3 operator*(const Matrix3& a, const Matrix3& b);
 WELKIN_API Matrix3 transpose(const Matrix3& a);
 WELKIN_API double determinant(const Matrix3& a);
 

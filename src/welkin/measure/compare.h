@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/base/monitor.h"
 #include "welkin/filter/resample.h"
 #include "welkin/map/map.h"
@@ -64,7 +65,8 @@ struct Comparison {
 /// nothing was compared.
 ///
 /// Throws Error when the maps have no channels in common or options are out of range, and Cancelled.
-Comparison compare(const Map& a, const Map& b, const CompareOptions& options = {}, Map* heat = nullptr);
+WELKIN_API Comparison compare(const Map& a, const Map& b, const CompareOptions& options = {},
+                              Map* heat = nullptr);
 inline constexpr double kHeatLowest = 1e-5;
 inline constexpr double kHeatHighest = 1;
 

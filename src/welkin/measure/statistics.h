@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "welkin/base/export.h"
 #include "welkin/base/monitor.h"
 #include "welkin/map/map.h"
 
@@ -64,6 +65,6 @@ struct MapStatistics {
 /// Reads the charts, not their borders. Solid angles are the density at the texel's centre times its area,
 /// scaled so that all together make the coverage. The same numbers whatever the number of threads. Throws
 /// Cancelled.
-MapStatistics measure(const Map& map, const Monitor& monitor = {});
+WELKIN_API MapStatistics measure(const Map& map, const Monitor& monitor = {});
 
 }  // namespace welkin

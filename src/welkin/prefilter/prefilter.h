@@ -88,8 +88,8 @@ class WELKIN_API PrefilterPlan {
 };
 
 /// Plans and runs once.
-std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
-                               std::vector<PrefilterLevel> levels, const PrefilterOptions& options = {},
-                               const Monitor& monitor = {});
+WELKIN_API std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
+                                          std::vector<PrefilterLevel> levels,
+                                          const PrefilterOptions& options = {}, const Monitor& monitor = {});
 
 }  // namespace welkin

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "welkin/filter/sample.h"
+#include "welkin/filter/sampler.h"
 #include "welkin/prefilter/prefilter_cases.h"
 #include "welkin/sphere/convention.h"
 
@@ -69,7 +69,7 @@ TEST(PrefilterLaws, AConstantMapIsConstantInLookUpsBesideEdges) {
       }
       std::vector<float> values(directions.size());
       for (const Filter filter : {Filter::bilinear, Filter::bicubic, Filter::lanczos}) {
-        sample(level, level.level, directions, filter, values);
+        Sampler::borrow(level, {.filter = filter}).look_up(directions, values);
         for (const float value : values) EXPECT_NEAR(value, 2, 1e-3) << target;
       }
     }

@@ -57,9 +57,9 @@ inline constexpr std::int64_t kMaxVerifiedTexels = std::int64_t{1} << 26;
 /// brute force with PrefilterMethod::lobe. The same numbers whatever the number of threads, and for the same
 /// seed. Takes some 3 ms for every texel compared and half a million texels of source, and core. Throws
 /// Error: a source of over kMaxVerifiedTexels, and as PrefilterPlan does; Cancelled.
-std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
-                                                std::span<const PrefilterLevel> levels,
-                                                const VerifyOptions& options = {});
+WELKIN_API std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
+                                                           std::span<const PrefilterLevel> levels,
+                                                           const VerifyOptions& options = {});
 
 /// Throws as verify_prefilter does for a source of that size.
 WELKIN_API void check_verifiable(const PrefilterShape& source);

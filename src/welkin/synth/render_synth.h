@@ -1,5 +1,6 @@
 #pragma once
 
+#include "welkin/base/export.h"
 #include "welkin/base/monitor.h"
 #include "welkin/map/map.h"
 #include "welkin/synth/synth.h"
@@ -17,7 +18,7 @@ struct RenderOptions {
 /// sampling", 1994, fig. 2, without the jitter), each weighted by its density; the same in every run. Places
 /// that aren't valid don't count, and texels whose centre isn't are 0. Borders are filled. Directions are
 /// exact to 1e-6. Throws Error for sizes, samples or an orientation that make no sense, and Cancelled.
-Map render(const synth::Radiance& radiance, const sphere::AnyParameterization& parameterization, int width,
-           int height, const RenderOptions& options = {});
+WELKIN_API Map render(const synth::Radiance& radiance, const sphere::AnyParameterization& parameterization,
+                      int width, int height, const RenderOptions& options = {});
 
 }  // namespace welkin

@@ -53,6 +53,6 @@ WELKIN_API std::string description(std::string_view name);
 
 /// The map of that name. Throws Error for a name that names() lacks, and for an option that the map reads and
 /// that is out of its range; the message names the map and the option.
-Radiance make(std::string_view name, const SynthOptions& options = {});
+WELKIN_API Radiance make(std::string_view name, const SynthOptions& options = {});
 
 }  // namespace welkin::synth

@@ -264,7 +264,8 @@ Format exr_format() {
           exr::is_exr,
           exr::open_exr,
           exr::write_exr,
-          true};
+          true,
+          exr::check_exr_options};
 }
 
 }  // namespace welkin::io

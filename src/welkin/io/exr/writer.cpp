@@ -224,6 +224,11 @@ WriteReport write_by_library(Imf::OStream& stream, const std::vector<Imf::Header
 
 }  // namespace
 
+void check_exr_options(const WriteOptions& options) {
+  stored_type(options);
+  if (!options.compression.empty()) compression_named(options.compression);
+}
+
 WriteReport write_exr(ByteSink& file, std::span<const WritePart> all_parts, const WriteOptions& options) {
   assert(!all_parts.empty());
   const StoredType type = stored_type(options);

@@ -17,6 +17,9 @@ namespace welkin::io::exr {
 /// values are rounded to nearest; negative ones become 0 (`below`), those over 2^32 − 1 are clipped
 /// (`above`), and neither NaN nor infinity has a place (`not_finite`, written as 0). Float keeps everything.
 /// The same input gives the same bytes. Throws Error, the cause only.
+/// Throws Error for a type or a compression that EXR lacks.
+void check_exr_options(const WriteOptions& options);
+
 WriteReport write_exr(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
 
 }  // namespace welkin::io::exr
