@@ -12,15 +12,15 @@ namespace welkin {
 struct ResampleOptions {
   Filter filter = Filter::automatic;
   /// Turns the world: what was seen along d is seen along rotation·d afterwards.
-  Matrix3 rotation;
+  Matrix3 rotation = {};
   /// Bicubic and Lanczos weights are negative in places. Unless this is set, a result is held near the range
   /// of the texels around it (fetch.h), so light never becomes negative beside a bright spot.
   bool allow_ringing = false;
   /// For directions that the source doesn't show and texels that aren't a place of the target: one value per
   /// channel; 0 where there are fewer.
-  std::vector<float> fill;
+  std::vector<float> fill = {};
   bool borders = true;  ///< false: leave the target's borders (fill_borders) to the caller
-  Monitor monitor;
+  Monitor monitor = {};
 };
 
 /// Fills the target's charts from the source, whose borders must be filled, and then the target's borders.

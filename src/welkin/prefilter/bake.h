@@ -22,14 +22,14 @@ struct BakeOptions {
   sphere::AnyParameterization target = sphere::AnyParameterization::make("cube");
   /// Charts of level 0. Default: faces of 256 texels, of 64 for one wide lobe; about as many texels in other
   /// parameterizations; 40×20 for lambert in a latlong (Greene 1986).
-  std::optional<ChartSize> size;
+  std::optional<ChartSize> size = {};
   /// Levels of a chain. 0: as many as the curve lists, or as the size has down to one texel.
   int levels = 0;
   /// Level 0 is the source resampled, whatever the curve says.
   bool mirror_level0 = false;
   /// Filter a channel A of R G B A too; otherwise it is left out, being no light.
   bool keep_alpha = false;
-  PrefilterOptions prefilter;
+  PrefilterOptions prefilter = {};
 };
 
 /// Charts of level 0: BakeOptions::size, or its default.

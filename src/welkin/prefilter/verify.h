@@ -13,7 +13,7 @@ namespace welkin {
 
 struct VerifyOptions {
   /// How the levels were made.
-  PrefilterOptions prefilter;
+  PrefilterOptions prefilter = {};
   /// Texels of every level that chance picks, each as likely, none twice; all where a level has no more.
   int random_texels = 64;
   /// Texels of every level of at least `hot` of its highest luminance; evenly spread over the order of
