@@ -5,10 +5,11 @@
 #include "welkin/base/export.h"
 #include "welkin/map/map.h"
 
+/// @file
 /// Changes to a map's values, or to the world it shows. Borders stay filled where they were.
 namespace welkin {
 
-/// Every value times `factor`, but for the channel A.
+/// Every value times `factor`, which is finite, but for the channel A; borders too.
 WELKIN_API void scale(Map& map, float factor);
 
 /// Replaces every value of the charts (also outside discs) that is NaN or infinite by the mean of the finite

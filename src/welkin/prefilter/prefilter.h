@@ -10,6 +10,7 @@
 #include "welkin/lobe/lobe.h"
 #include "welkin/map/map.h"
 
+/// @file
 /// Pre-filtering: a map averaged with a lobe about every direction, so that lighting a material is one
 /// look-up.
 ///
@@ -20,15 +21,15 @@ namespace welkin {
 
 /// One result: a size and what its texels hold.
 struct PrefilterLevel {
-  ChartSize size;
-  lobe::AnyLobe lobe;
+  ChartSize size;      ///< of each chart
+  lobe::AnyLobe lobe;  ///< what it is filtered with
 };
 
-/// The pictures that a plan is made for.
+/// The maps that a plan is made for.
 struct PrefilterShape {
-  sphere::AnyParameterization parameterization;
-  ChartSize size;
-  int channels = 3;
+  sphere::AnyParameterization parameterization;  ///< of the source
+  ChartSize size;                                ///< of each chart
+  int channels = 3;                              ///< all are filtered
 };
 
 /// What a level's values are.
@@ -37,13 +38,14 @@ enum class LobeScale {
   integral,  ///< ∫ w L dω: of `lambert` the irradiance, of `phong` the sum of Heidrich & Seidel 1999
 };
 
+/// How levels are made.
 struct PrefilterOptions {
   /// Aim for the relative RMS error of every level, 1e-6 … 0.1. What is reached is measured, not guaranteed
   /// (docs/prefiltering.md).
   double tolerance = 1e-3;
   /// Of the results: Map::orientation.
   Matrix3 orientation = {};
-  LobeScale scale = LobeScale::average;
+  LobeScale scale = LobeScale::average;  ///< what values are
   /// How a mirror's level is read. `automatic`: bilinear where the source is about as fine as the level;
   /// where it is finer, averaged over the level's texels, or over boxes of its own about as large and then
   /// bilinear.
@@ -55,12 +57,12 @@ struct PrefilterOptions {
 struct PrefilterMethod {
   std::string name;  ///< `resample`, `harmonics`
   int degree = 0;    ///< of the harmonics
-  ChartSize grid;    ///< where they are summed up, before the spline
+  ChartSize grid;    ///< of directions on which they are synthesised, before the spline
   /// What the level is filtered with: the level's lobe, or where that is narrower than texels, a table of it
   /// blurred by a Gaussian of this σ in radians (widen.h). The reference for the level is brute force with
   /// this one.
   lobe::AnyLobe lobe;
-  double widened = 0;
+  double widened = 0;    ///< that σ, radians; 0 where the lobe is the level's
   bool reduced = false;  ///< resampled from the source averaged over boxes of its texels
 };
 
@@ -79,6 +81,7 @@ class WELKIN_API PrefilterPlan {
   /// the source isn't. The same numbers whatever the number of threads.
   std::vector<Map> run(const Map& source, const Monitor& monitor = {}) const;
 
+  /// How each level is computed; valid as long as the plan or a copy of it.
   const std::vector<PrefilterMethod>& methods() const;
 
   struct Tables;
@@ -87,9 +90,9 @@ class WELKIN_API PrefilterPlan {
   std::shared_ptr<const Tables> tables_;
 };
 
-/// Plans and runs once.
-std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
-                               std::vector<PrefilterLevel> levels, const PrefilterOptions& options = {},
-                               const Monitor& monitor = {});
+/// Plans and runs once. Throws as PrefilterPlan does.
+WELKIN_API std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
+                                          std::vector<PrefilterLevel> levels,
+                                          const PrefilterOptions& options = {}, const Monitor& monitor = {});
 
 }  // namespace welkin

@@ -2,9 +2,12 @@
 
 #include <cstdint>
 
+#include "welkin/base/export.h"
 #include "welkin/base/monitor.h"
 #include "welkin/map/map.h"
 
+/// @file
+/// Values that pre-filtering refuses.
 namespace welkin {
 
 /// Values of a map's valid texels that pre-filtering refuses, or that are odd.
@@ -19,6 +22,6 @@ inline constexpr float kMaxRadiance = 1e30f;
 
 /// Reads the charts once, at the speed of memory where there is nothing to find. Texels that are not valid
 /// (AnyParameterization::valid) are ignored. Throws Cancelled.
-SourceFaults faults_of(const Map& map, const Monitor& monitor = {});
+WELKIN_API SourceFaults faults_of(const Map& map, const Monitor& monitor = {});
 
 }  // namespace welkin

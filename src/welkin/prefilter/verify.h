@@ -8,27 +8,30 @@
 #include "welkin/base/export.h"
 #include "welkin/prefilter/prefilter.h"
 
+/// @file
 /// Measures pre-filtered levels against brute force.
 namespace welkin {
 
+/// Which texels are compared.
 struct VerifyOptions {
   /// How the levels were made.
   PrefilterOptions prefilter = {};
-  /// Texels of every level that chance picks, each as likely, none twice; all where a level has no more.
+  /// Texels of every level, chosen at random, each as likely, none twice; all where a level has no more.
   int random_texels = 64;
   /// Texels of every level of at least `hot` of its highest luminance; evenly spread over the order of
   /// luminance where there are more than `most_hot`. Besides them, the texels in the direction of the
   /// source's brightest lights.
   int most_hot = 64;
-  double hot = 0.5;
-  std::uint64_t seed = 1;
-  Monitor monitor = {};
+  double hot = 0.5;        ///< share of the highest luminance, 0 … 1
+  std::uint64_t seed = 1;  ///< of the choice by chance
+  Monitor monitor = {};    ///< progress and cancelling
 };
 
 /// Texels of a level against PrefilterReference. All numbers are over the channels together, but for A where
 /// there are others.
 struct ReferenceErrors {
-  int random_texels = 0, hot_texels = 0;  ///< compared
+  int random_texels = 0;  ///< compared
+  int hot_texels = 0;     ///< compared
   /// √(Σ Ω |error|²) / √(Σ Ω |reference|²) over the random texels, Ω their solid angles. 0 where both are 0.
   double relative_rmse = 0;
   /// Largest |error| / |reference| of all texels, where the reference counts as no smaller than 1e-6 of the
@@ -37,6 +40,7 @@ struct ReferenceErrors {
   Vec3d maximum_direction{0, 0, 1};  ///< in the world
 };
 
+/// What is found of a level.
 struct LevelVerification {
   /// None of a mirror's level, which is the source at other positions, not a sum with a lobe.
   std::optional<ReferenceErrors> reference;
@@ -57,9 +61,9 @@ inline constexpr std::int64_t kMaxVerifiedTexels = std::int64_t{1} << 26;
 /// brute force with PrefilterMethod::lobe. The same numbers whatever the number of threads, and for the same
 /// seed. Takes some 3 ms for every texel compared and half a million texels of source, and core. Throws
 /// Error: a source of over kMaxVerifiedTexels, and as PrefilterPlan does; Cancelled.
-std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
-                                                std::span<const PrefilterLevel> levels,
-                                                const VerifyOptions& options = {});
+WELKIN_API std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
+                                                           std::span<const PrefilterLevel> levels,
+                                                           const VerifyOptions& options = {});
 
 /// Throws as verify_prefilter does for a source of that size.
 WELKIN_API void check_verifiable(const PrefilterShape& source);
