@@ -11,7 +11,7 @@
 /// Pixels in memory.
 namespace welkin {
 
-/// A window onto pixels that somebody else owns, who must outlive it: rows of `width` texels of `channels`
+/// A window onto pixels that something else owns, which must outlive it: rows of `width` texels of `channels`
 /// interleaved values, v down, origin top-left. A view can be a part of a larger image. T is float or const
 /// float. Nothing checks indices.
 template <class T>

@@ -16,7 +16,7 @@ enum class PixelFormat {
   half,     ///< IEEE 754 binary16, two bytes
 };
 
-/// Where a rectangle of somebody's pixels lies: rows from the top down, texels from left to right, the values
+/// Where a rectangle of pixels lies in memory: rows from the top down, texels from left to right, the values
 /// of a texel one after the other. Values are linear radiance. `Bytes` is const std::byte or std::byte.
 template <class Bytes>
 struct BasicPixels {
@@ -51,8 +51,8 @@ inline MutablePixels pixels_of(std::uint16_t* half, int width, int height, int c
 }
 /// @}
 
-/// Copies somebody's pixels into ours. Throws Error: (mismatch) other sizes or numbers of channels,
-/// (bad_request) no data, or values that would overlap.
+/// Copies pixels of any spacing into packed floats; the two don't overlap. NaN and infinity stay. Throws
+/// Error: (mismatch) other sizes or numbers of channels, (bad_request) no data, or values that would overlap.
 WELKIN_API void copy_pixels(const Pixels& from, ImageView<float> to);
 /// The reverse. Halves are rounded to nearest, and become infinite above 65504.
 WELKIN_API void copy_pixels(ImageView<const float> from, const MutablePixels& to);

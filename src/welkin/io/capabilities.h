@@ -47,7 +47,7 @@ struct WELKIN_API Capabilities {
   Channels channels = Channels::rgb;      ///< which channels a picture can have
   bool pictures = false;                  ///< several pictures in one file: parts, pages
   bool levels = false;                    ///< levels, each half as large as the one before
-  bool texture = false;                   ///< faces and layers of a texture that a graphics card looks up
+  bool texture = false;                   ///< faces and layers of a texture that GPUs sample
   bool lossless = true;                   ///< what is stored is what was given, rounded to the type
   bool hdr = false;                       ///< values over 1
   bool negative = false;                  ///< values below 0

@@ -187,8 +187,8 @@ concept Lobe = std::default_initializable<L> && std::copyable<L> &&
   { lobe.breakpoints() } -> std::convertible_to<std::vector<double>>;
 };
 
-/// The lobe of this struct, copied. Throws Error (bad_request) when its width makes no sense. Its spec is its
-/// name and parameters, which AnyLobe::make doesn't know.
+/// The lobe of this struct, copied. Throws Error (bad_request) when its width isn't over 0 and at most π. Its
+/// spec is its name and parameters, which AnyLobe::make doesn't know.
 template <Lobe L>
 AnyLobe make_lobe(L lobe = {}) {
   return AnyLobe::from_model(std::make_shared<ModelOf<L>>(std::move(lobe)));

@@ -33,7 +33,7 @@ struct Points {
 using PointSums = void (*)(const void* self, const Points& points, const float* x, const float* y,
                            const float* z, float* values, std::size_t count);
 
-/// One of the registered lobes, chosen by name at run time, with its parameters; or a lobe from a table.
+/// A lobe, chosen by name at run time, with its parameters; or made of a table, or of a struct (custom.h).
 /// Cheap to copy; never changes; safe from many threads.
 ///
 /// A lobe is a weight w(s) of s = 1 − cos θ, 0 ≤ s ≤ 2, which keeps its precision at the axis, where cos θ
@@ -41,14 +41,15 @@ using PointSums = void (*)(const void* self, const Points& points, const float* 
 class WELKIN_API AnyLobe {
  public:
   /// By name, with parameters: `lambert`, `ggx,roughness=0.5`, `phong,exponent=50`; or from a file:
-  /// `table,file=PATH`, where the path is all the rest (see table_file.h). Throws Error: unknown names (the
+  /// `table,file=PATH`, where the path is all the rest (docs/lobes.md). Throws Error: unknown names (the
   /// nearest is suggested), values out of range, a table that doesn't integrate (bad_request, damaged), a
   /// file that can't be read.
   static AnyLobe make(std::string_view spec);
   /// A lobe from values at ascending angles, in degrees from 0 to at most 180; linear in the angle between
   /// them, 0 beyond the last. Its spec is `table,NAME`, which `make` cannot make again. Throws Error, which
   /// begins with `name`: fewer than two points or over kMaxTablePoints, values that are negative or not
-  /// finite, all 0, angles that don't ascend from 0, a width under 1e-7 radians.
+  /// finite, all 0, unequal numbers of angles and values, angles that don't ascend from 0, a width under 1e-7
+  /// radians.
   static AnyLobe from_table(std::string_view name, std::span<const double> degrees,
                             std::span<const double> values);
 
@@ -98,7 +99,8 @@ class WELKIN_API AnyLobe {
   const void* self() const;
 
   class Model;
-  /// For make_lobe (custom.h). Throws Error (bad_request) for no model, or one whose width makes no sense.
+  /// For make_lobe (custom.h). Throws Error (bad_request) for no model, or one whose width isn't over 0 and
+  /// at most π.
   static AnyLobe from_model(std::shared_ptr<const Model> model);
 
  private:

@@ -28,10 +28,10 @@ class WELKIN_API RoughnessCurve {
   /// How many levels a list is for; 0 for a named curve, which takes any number.
   int listed_levels() const { return static_cast<int>(list_.size()); }
 
-  /// Roughness at a level, a real number, clamped to 0 … levels − 1; between two levels of a list it is
-  /// linear. Never falls as the level grows. Throws Error when there is a list, and it is for another number
-  /// of levels; `levels` is at least 1. A chain of one level is at roughness 0, or what the list has; of
-  /// unreal and three.js at 1.
+  /// Roughness at a level, a real number and not NaN, clamped to 0 … levels − 1; between two levels of a list
+  /// it is linear. Never falls as the level grows. Throws Error when there is a list, and it is for another
+  /// number of levels; `levels` is at least 1. A chain of one level is at roughness 0, or what the list has;
+  /// of unreal and three.js at 1.
   double roughness(double level, int levels) const;
   /// The inverse, clamped to 0 … levels − 1. Where several levels have the roughness, the first. Throws Error
   /// like `roughness`, and for a roughness outside 0 … 1.

@@ -17,8 +17,8 @@ WELKIN_API void scale(Map& map, float factor);
 /// texels had such a value; where it isn't 0, the borders are filled again.
 WELKIN_API std::uint64_t sanitize(Map& map, float replacement = 0);
 
-/// Turns the world: what was seen along d is seen along rotation·d afterwards. Changes no pixel. Throws Error
-/// (bad_request) for a matrix that is not orthonormal.
+/// Rotates the world: what was seen along d is seen along rotation·d afterwards. Changes no pixel. Throws
+/// Error (bad_request) for a matrix that is not orthonormal.
 WELKIN_API void turn_world(Map& map, const Matrix3& rotation);
 
 /// A copy of a map of R G B A without A.

@@ -18,8 +18,9 @@ struct WELKIN_API ChainNotes {
                      ///< left out: `ggx`. Empty for plain maps
   std::vector<double> roughness;  ///< of each level; empty where the lobe has none
   std::string curve;              ///< how roughness goes with the level: `linear`, `filament`…
-  std::string normalisation;      ///< `radiance`: a constant map stays what it is
-  std::string software;           ///< that made the chain
+  std::string
+      normalisation;     ///< `radiance`: a constant map stays what it is; `integral`: LobeScale::integral
+  std::string software;  ///< that made the chain
 
   /// Whether nothing is noted.
   bool empty() const;

@@ -61,9 +61,9 @@ class WELKIN_API Level {
 struct WELKIN_API Map {
   /// Where a direction lies in the charts.
   sphere::AnyParameterization parameterization;
-  /// The pixels, with as many charts as the parameterization has.
+  /// The pixels, with as many charts as the parameterization has. Functions rely on it.
   Level level;
-  /// One name for each channel: R G B, Y… `A` is no light.
+  /// One name for each channel, as many as the level has: R G B, Y…. `A` is coverage, not radiance.
   std::vector<std::string> channel_names;
   /// From the world (docs/conventions.md) to the parameterization, orthonormal: the texel at the
   /// parameterization's direction d shows the world's direction orientationᵀ·d.
@@ -75,9 +75,9 @@ struct WELKIN_API Map {
   Map(sphere::AnyParameterization parameterization, int width, int height, int channels,
       PixelContents contents = PixelContents::zero);
 
-  /// A map of somebody's pixels, copied once: those of each chart, all of one size and number of channels, in
-  /// the parameterization's order of charts. Its borders are filled. Throws Error (mismatch) for another
-  /// number of charts or for sizes that differ, and as copy_pixels does.
+  /// A map of pixels of any spacing, float or half, copied once: those of each chart, all of one size and
+  /// number of channels, in the parameterization's order of charts. Its borders are filled. Throws Error
+  /// (mismatch) for another number of charts or for sizes that differ, and as copy_pixels does.
   static Map from_pixels(const sphere::AnyParameterization& parameterization, std::span<const Pixels> charts);
   /// The same of a single chart.
   static Map from_pixels(const sphere::AnyParameterization& parameterization, const Pixels& chart);
@@ -97,8 +97,8 @@ struct ChartSize {
 /// Names for the channels of an image that has `count` of them: R G B, R G B A, Y, Y A, else C0 C1….
 WELKIN_API std::vector<std::string> default_channel_names(int count);
 
-/// Solid angle of every texel of row `row` of a chart of width × height, sr: `out` has `width` values. Texels
-/// whose centre is not valid get 0.
+/// Solid angle of every texel of row `row` of a chart of width × height, sr, to `width` values at `out`.
+/// Nothing checks the chart and the row. Texels whose centre is not valid get 0.
 WELKIN_API void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height,
                                    int chart, int row, float* out);
 

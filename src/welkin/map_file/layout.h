@@ -44,10 +44,10 @@ struct Layout {
 /// crosses, and how wide a grid is, the parameterization's traits say.
 WELKIN_API std::vector<Layout> layouts_of(const sphere::AnyParameterization& parameterization);
 
-/// Names of the charts in file names and `--faces`: px nx py ny pz nz for cubes, else 0, 1, 2….
+/// Names of the charts in file names and for with_faces: px nx py ny pz nz for cubes, else 0, 1, 2….
 WELKIN_API std::vector<std::string> chart_names(const sphere::AnyParameterization& parameterization);
 
-/// A parameterization and a layout, as written on the command line: `cube:hcross`,
+/// A parameterization and a layout, as text: `cube:hcross`,
 /// `fisheye-equidistant,fov=200`.
 struct WELKIN_API MapShape {
   sphere::AnyParameterization parameterization;  ///< with its parameters
@@ -66,11 +66,11 @@ WELKIN_API MapShape parse_map_shape(std::string_view text);
 WELKIN_API MapShape for_chart_size(const MapShape& shape, ChartSize size);
 
 /// The layout for a map whose orientation is a reflection. Its native faces are unmirrored pictures already,
-/// so cells aren't mirrored, and where faces adjoin, +X and −X change places.
+/// so cells aren't mirrored, and where faces adjoin, +X and −X are swapped.
 WELKIN_API Layout for_reflected_world(const Layout& layout,
                                       const sphere::AnyParameterization& parameterization);
 
-/// Another order and turn of the charts: `px,nx,py:90,ny:270:mirror,pz,nz` names the chart of each of the
+/// Another order and rotation of the charts: `px,nx,py:90,ny:270:mirror,pz,nz` names the chart of each of the
 /// layout's cells in reading order, and how its picture is turned clockwise (after mirroring) beyond what the
 /// layout does. Also `+X` for `px`. Throws Error (bad_request) for what isn't of that form.
 WELKIN_API Layout with_faces(const Layout& layout, const sphere::AnyParameterization& parameterization,
@@ -94,7 +94,8 @@ WELKIN_API void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float>
                                   ImageView<float> rows);
 
 /// Rows of a layout's picture, from row `first` on: all cells, each with the chart of its number in `charts`,
-/// and black where there is none. Charts are of one size.
+/// and black where there is none. There is a chart for every cell, all of one size, and `rows` is as wide as
+/// the picture and ends inside it.
 WELKIN_API void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
                           ImageView<float> rows);
 

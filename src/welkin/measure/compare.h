@@ -20,7 +20,7 @@ struct CompareOptions {
   Filter filter = Filter::bilinear;
   /// What PSNR is relative to; 0: 1 when the reference's maximum is at most 1, else that maximum.
   double peak = 0;
-  /// Texels around the heat map, which is half as high.
+  /// Width of the heat map, texels, 2 … 32768; it is half as high.
   int heat_width = 1024;
   Monitor monitor = {};  ///< progress and cancelling
 };
@@ -67,8 +67,8 @@ struct Comparison {
 ///
 /// `heat`, if given, becomes a lat-long map (RGB, linear sRGB, no orientation) of the relative error: root
 /// mean square over the channels of b − a by that of a, with the floor of maximum_relative, averaged over
-/// each new texel. color_ramp over its logarithm from kHeatLowest to kHeatHighest; neutral_color where
-/// nothing was compared.
+/// each new texel. A colour scale over its logarithm, dark violet at kHeatLowest to light yellow at
+/// kHeatHighest; grey where nothing was compared.
 ///
 /// Throws Error when the maps have no channels in common or options are out of range, and Cancelled.
 WELKIN_API Comparison compare(const Map& a, const Map& b, const CompareOptions& options = {},

@@ -55,8 +55,8 @@ WELKIN_API ChainNotes bake_notes(const BakeOptions& options);
 /// many threads.
 class WELKIN_API BakePlan {
  public:
-  /// For sources of this shape; its channels are those that are filtered. Throws as bake_levels and
-  /// PrefilterPlan do.
+  /// For sources of this shape; its channels are those that are filtered: 3 of R G B A, unless alpha is kept.
+  /// Throws as bake_levels and PrefilterPlan do.
   BakePlan(const PrefilterShape& source, const BakeOptions& options = {});
   /// For maps like this one.
   BakePlan(const Map& source, const BakeOptions& options = {});

@@ -35,7 +35,8 @@ struct PrefilterShape {
 /// What a level's values are.
 enum class LobeScale {
   average,   ///< ∫ w L dω / ∫ w dω: a constant map stays as it is. What engines expect.
-  integral,  ///< ∫ w L dω: of `lambert` the irradiance, of `phong` the sum of Heidrich & Seidel 1999
+  integral,  ///< ∫ w L dω: of `lambert` the irradiance, of `phong` the sum of Heidrich & Seidel 1999. A
+             ///< mirror's level is radiance all the same.
 };
 
 /// How levels are made.
@@ -46,9 +47,9 @@ struct PrefilterOptions {
   /// Of the results: Map::orientation.
   Matrix3 orientation = {};
   LobeScale scale = LobeScale::average;  ///< what values are
-  /// How a mirror's level is read. `automatic`: bilinear where the source is about as fine as the level;
-  /// where it is finer, averaged over the level's texels, or over boxes of its own about as large and then
-  /// bilinear.
+  /// How a mirror's level is read. `automatic`: bilinearly where the source is about as fine as the level;
+  /// where it is finer, averaged over the level's texels, or box-filtered to about the level's resolution and
+  /// then read bilinearly.
   Filter mirror_filter = Filter::automatic;
   bool borders = true;  ///< false: leave the results' borders (fill_borders) to the caller
 };
@@ -57,13 +58,13 @@ struct PrefilterOptions {
 struct PrefilterMethod {
   std::string name;  ///< `resample`, `harmonics`
   int degree = 0;    ///< of the harmonics
-  ChartSize grid;    ///< of directions on which they are synthesised, before the spline
+  ChartSize grid;    ///< of directions at which they are synthesised, to be interpolated by a spline
   /// What the level is filtered with: the level's lobe, or where that is narrower than texels, a table of it
-  /// blurred by a Gaussian of this σ in radians (widen.h). The reference for the level is brute force with
-  /// this one.
+  /// convolved with a Gaussian (docs/prefiltering.md). The reference for the level is brute force with this
+  /// one.
   lobe::AnyLobe lobe;
-  double widened = 0;    ///< that σ, radians; 0 where the lobe is the level's
-  bool reduced = false;  ///< resampled from the source averaged over boxes of its texels
+  double widened = 0;    ///< standard deviation of that Gaussian, radians; 0 where there is none
+  bool reduced = false;  ///< a mirror's level, read from the box-filtered source
 };
 
 /// Everything that depends on sizes and lobes alone, kept for any number of maps: sequences and probe grids

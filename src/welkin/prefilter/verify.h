@@ -16,19 +16,19 @@ namespace welkin {
 struct VerifyOptions {
   /// How the levels were made.
   PrefilterOptions prefilter = {};
-  /// Texels of every level, chosen at random, each as likely, none twice; all where a level has no more.
+  /// Texels of every level, drawn uniformly without replacement; all where a level has no more.
   int random_texels = 64;
-  /// Texels of every level of at least `hot` of its highest luminance; evenly spread over the order of
-  /// luminance where there are more than `most_hot`. Besides them, the texels in the direction of the
-  /// source's brightest lights.
+  /// At most `most_hot` texels of every level, of at least `hot` of its highest luminance; evenly spread over
+  /// the order of luminance where there are more. Besides them, the texels in the direction of the source's
+  /// brightest lights.
   int most_hot = 64;
   double hot = 0.5;        ///< share of the highest luminance, 0 … 1
-  std::uint64_t seed = 1;  ///< of the choice by chance
+  std::uint64_t seed = 1;  ///< of the random choice
   Monitor monitor = {};    ///< progress and cancelling
 };
 
-/// Texels of a level against PrefilterReference. All numbers are over the channels together, but for A where
-/// there are others.
+/// Texels of a level against brute force in float64. All numbers are over the channels together, but for A
+/// where there are others.
 struct ReferenceErrors {
   int random_texels = 0;  ///< compared
   int hot_texels = 0;     ///< compared
@@ -46,8 +46,8 @@ struct LevelVerification {
   std::optional<ReferenceErrors> reference;
   /// ∫ level dω / ∫ source dω, of the channel where it is farthest from 1; as 1 + difference / ∫ |source| dω,
   /// which is the same where nothing is negative, and 1 where there is no light. A level has too few texels
-  /// for a quadrature, so its function is computed again, by the same methods, where one is exact (see
-  /// verify_energy.h); a mirror's own texels are summed up. None where no quadrature is good enough.
+  /// for a quadrature, so it is computed again, by the same methods, at the nodes of an exact quadrature; a
+  /// mirror's own texels are summed up. None where no quadrature is good enough.
   std::optional<double> energy;
   /// Largest |value − 1| of all texels of the same level made of a source that is 1 everywhere. Of a source
   /// that shows a part of the sphere: |value − reference| at the texels compared; none of its mirror.

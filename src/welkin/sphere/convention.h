@@ -12,7 +12,7 @@
 /// The worlds of other programs.
 namespace welkin {
 
-/// How another program's world lies in a file: what `--convention NAME` means. Each matrix takes a direction
+/// How another program's world lies in a file. Each matrix takes a direction
 /// of the native world (docs/conventions.md, which also lists how each program's axes are identified with
 /// ours) to the direction that the parameterization's formulas are given: it is a Map's `orientation`. All
 /// are orthonormal, and hold only 0, 1 and −1.
@@ -22,8 +22,8 @@ struct Convention {
   /// For panoramas (Projection::panorama): a rotation about +Y, since up stays up and a picture is never
   /// mirrored.
   Matrix3 latlong;
-  /// For maps that shaders look up by coordinates (Projection::lookup: cubes, octahedra, paraboloids…): the
-  /// coordinates that the program looks a cube map up with. A reflection (determinant −1) where they are
+  /// For maps that shaders look up by coordinates (Projection::lookup: cubes, octahedra, paraboloids…): to
+  /// the coordinates by which the program samples a cube map. A reflection (determinant −1) where they are
   /// left-handed; identity for a program without cube maps.
   Matrix3 lookup;
   /// For angular and fisheye pictures (Projection::disc): a rotation, as `latlong`.

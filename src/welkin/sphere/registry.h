@@ -14,9 +14,9 @@
 /// Parameterizations by name.
 namespace welkin::sphere {
 
-/// One of the registered parameterizations, chosen by name at run time, with its parameters. Cheap to copy;
-/// never changes; safe from many threads. Double-precision functions are the reference; `kernels` are the
-/// fast ones.
+/// A parameterization, chosen by name at run time, with its parameters; or made of a struct (custom.h). Cheap
+/// to copy; never changes; safe from many threads. Double-precision functions are the reference; `kernels`
+/// are the fast ones.
 class WELKIN_API AnyParameterization {
  public:
   /// By name, with parameters: `latlong`, `fisheye-equidistant,fov=200`. Throws Error (bad_request): unknown

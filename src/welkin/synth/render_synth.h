@@ -21,8 +21,8 @@ struct RenderOptions {
 /// sampling", 1994, fig. 2, without the jitter), each weighted by its density; the same in every run.
 /// `radiance` is called from many threads at once, along unit directions of the world. Positions that aren't
 /// valid don't count, and texels whose centre isn't are 0. Borders are filled. Directions are
-/// exact to 1e-6. Throws Error (bad_request) for sizes, samples or an orientation that make no sense, and
-/// Cancelled.
+/// exact to 1e-6. Throws Error (bad_request) for sizes and samples out of range, for an orientation that
+/// isn't orthonormal, and Cancelled.
 WELKIN_API Map render(const synth::Radiance& radiance, const sphere::AnyParameterization& parameterization,
                       int width, int height, const RenderOptions& options = {});
 

@@ -34,9 +34,9 @@ struct SynthOptions {
   /// sun: radiance of the disc (0: 100,000). lamps: their median radiance (0: 50). Others: a factor on all of
   /// the map (0: 1).
   double intensity = 0;
-  /// sun, sky: the sun's height, −90…90 for sun and 0…90 for sky.
+  /// sun, sky: the sun's elevation, −90…90 for sun and 0…90 for sky.
   double elevation = 40;
-  /// sun, sky: where the sun stands.
+  /// sun, sky: the sun's azimuth.
   double azimuth = 35;
   /// sun, lamps: radiance of the sky around them; may be 0.
   double background = 0.1;
