@@ -84,7 +84,11 @@ done
 public=src/welkin/public_headers.txt
 mapfile -t headers < <(grep -E '^[a-z]' "$public")
 ((${#headers[@]} > 0)) || breach "$public names no header"
-while IFS= read -r twice; do breach "$public: $twice is named twice"; done < <(printf '%s\n' "${headers[@]}" | sort | uniq -d)
+declare -A is_public
+for header in "${headers[@]}"; do
+  [[ -z ${is_public[$header]-} ]] || breach "$public: $header is named twice"
+  is_public[$header]=yes
+done
 for header in "${headers[@]}"; do
   [[ -f src/welkin/$header ]] || { breach "$public: there is no src/welkin/$header"; continue; }
   while IFS=: read -r line text; do
@@ -93,7 +97,7 @@ for header in "${headers[@]}"; do
     if [[ $included == "welkin/$header" ]]; then
       breach "$where: includes itself"
     elif [[ $included == welkin/* ]]; then
-      printf '%s\n' "${headers[@]}" | grep -qxF "${included#welkin/}" || breach "$where: \"$included\" is not public ($public)"
+      [[ -n ${is_public[${included#welkin/}]-} ]] || breach "$where: \"$included\" is not public ($public)"
     elif [[ ! $text =~ '<'[a-z_]+'>' ]]; then
       breach "$where: a public header includes \"$included\", which is not of the standard library"
     fi

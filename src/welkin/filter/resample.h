@@ -14,7 +14,8 @@ namespace welkin {
 /// How a map is made from another.
 struct ResampleOptions {
   Filter filter = Filter::automatic;  ///< how the source is read
-  /// Rotates the world: what was seen along d is seen along rotation·d afterwards. Orthonormal.
+  /// Rotates the world: what was seen along d is seen along rotation·d afterwards. Orthonormal; not checked
+  /// (is_orthonormal).
   Matrix3 rotation = {};
   /// Bicubic and Lanczos kernels have negative lobes. Unless this is set, their overshoot is clamped to near
   /// the range of the footprint's texels, so radiance never becomes negative beside a bright spot

@@ -152,6 +152,7 @@ struct WriteFile {
 };
 
 /// The same for files that belong together, as the faces of a cube: they appear only when all are written.
+/// They are then renamed one after the other: should the system refuse one, those before it have appeared.
 /// `next(i)` gives each of `count` files when its turn comes; what it refers to may be gone at the next call.
 WELKIN_API WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
                                  const WriteOptions& options = {});

@@ -22,7 +22,8 @@ namespace welkin::io {
 /// is written through by `commit`, from a spool that allows seeking. At most 256 can be unfinished at once.
 class WELKIN_API OutputFile final : public ByteSink {
  public:
-  /// Begins a file that will be called `path`. Throws Error about it: (not_found, denied, system).
+  /// Begins a file that will be called `path`. Throws Error (not_found, denied, system), without the file's
+  /// name too.
   explicit OutputFile(const std::filesystem::path& path);
   /// Removes the temporary file, unless it was committed.
   ~OutputFile() override;

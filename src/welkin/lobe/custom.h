@@ -157,7 +157,7 @@ class ModelOf final : public AnyLobe::Model {
 ///       // w(s), s = 1 − cos θ, 0 ≤ s ≤ 2, for double and float: finite, not negative, not normalised, not all 0.
 ///       template <class T> T weight(T s) const;
 ///
-///       // Radians, over 0 and up to π: about where the weight has fallen to half of its largest.
+///       // Radians, 1e-7 … π: about where the weight has fallen to half of its largest.
 ///       double width() const;
 ///
 ///       // The s between 0 and 2 where w isn't smooth, ascending.

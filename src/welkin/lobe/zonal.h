@@ -10,7 +10,7 @@
 namespace welkin::lobe {
 
 /// Σ_i weights[i] P_l(1 − s[i]) for l = 0 … degree, P_l the Legendre polynomials; 0 ≤ s ≤ 1, as many weights
-/// as s. Keeps the precision of small s.
+/// as s, degree ≥ 0; nothing checks. Keeps the precision of small s.
 WELKIN_API std::vector<double> legendre_sums(std::vector<double> s, std::vector<double> weights, int degree);
 
 /// Zonal coefficients of the normalised lobe, degrees 0 … degree, degree ≥ 0: λ_l = 2π ∫ w(s) P_l(1 − s) ds /

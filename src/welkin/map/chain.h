@@ -42,7 +42,7 @@ struct Chain {
   ChainNotes notes;
 };
 
-/// Charts of level `level` ≥ 0: max(1, side >> level) in each axis.
+/// Charts of level `level`, 0 … 30: max(1, side >> level) in each axis.
 WELKIN_API ChartSize chain_size(ChartSize finest, int level);
 
 /// How many levels charts of this size have, down to 1×1.

@@ -65,8 +65,8 @@ struct WELKIN_API Map {
   Level level;
   /// One name for each channel, as many as the level has: R G B, Y…. `A` is coverage, not radiance.
   std::vector<std::string> channel_names;
-  /// From the world (docs/conventions.md) to the parameterization, orthonormal: the texel at the
-  /// parameterization's direction d shows the world's direction orientationᵀ·d.
+  /// From the world (docs/conventions.md) to the parameterization. Orthonormal, which functions rely on: the
+  /// texel at the parameterization's direction d shows the world's direction orientationᵀ·d.
   Matrix3 orientation;
 
   /// A map of charts of width × height, black unless told otherwise, its orientation the identity. The

@@ -24,8 +24,8 @@ struct ReadMapOptions {
   std::string faces = {};  ///< see with_faces; empty for the layout's own order
   /// Which channels become the map's: names of the file. Empty: R G B (A), or Y (A), or the first three.
   std::vector<std::string> channels = {};
-  /// How the file's directions relate to the native world (convention.h); without it, what the file declares,
-  /// else native.
+  /// How the file's directions relate to the native world (convention.h), orthonormal; without it, what the
+  /// file declares, else native.
   std::optional<Matrix3> orientation = {};
   int border = 0;  ///< texels of safety border around every chart in the file, besides what the file declares
   std::size_t part = 0;  ///< of a file with several pictures; where these are the charts, of several sets

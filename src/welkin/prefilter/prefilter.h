@@ -36,7 +36,7 @@ struct PrefilterShape {
 enum class LobeScale {
   average,   ///< ∫ w L dω / ∫ w dω: a constant map stays as it is. What engines expect.
   integral,  ///< ∫ w L dω: of `lambert` the irradiance, of `phong` the sum of Heidrich & Seidel 1999. A
-             ///< mirror's level is radiance all the same.
+             ///< mirror's level is radiance and a channel A an average all the same.
 };
 
 /// How levels are made.
@@ -56,7 +56,7 @@ struct PrefilterOptions {
 
 /// How a level is computed.
 struct PrefilterMethod {
-  std::string name;  ///< `resample`, `harmonics`
+  std::string name;  ///< `resample`, `harmonics`, `near and far` (docs/prefiltering.md)
   int degree = 0;    ///< of the harmonics
   ChartSize grid;    ///< of directions at which they are synthesised, to be interpolated by a spline
   /// What the level is filtered with: the level's lobe, or where that is narrower than texels, a table of it
