@@ -4,7 +4,7 @@
 #     its tests (*_test.cpp, *_cases.h) may use any room before it;
 #   - the table of rooms in docs/architecture.md names the same ones in the same order;
 #   - a public header (src/welkin/public_headers.txt) is there once, and includes only public ones and the standard library; welkin.h
-#     includes all of them;
+#     includes all of them; its functions are exported;
 #   - no library header includes the command line's libraries, which cost every includer seconds of compile time;
 #   - a source file of over 400 lines says why in its first ten.
 #
@@ -103,6 +103,14 @@ for header in "${headers[@]}"; do
     fi
   done < <(grep -nE '^[[:space:]]*#[[:space:]]*include' "src/welkin/$header" || true)
 done
+# A function that a shared library hides links in tests alone, which are linked with the static one.
+while IFS= read -r hidden; do breach "$hidden: a public function without WELKIN_API"; done < <(
+  cd src/welkin && awk '
+    /@cond INTERNAL/ { internal = 1 }
+    /@endcond/ { internal = 0 }
+    !internal && !templated && /^[A-Za-z][A-Za-z0-9_:<>, ]*[ &*](operator[^ ]+|[a-z_0-9]+)\(/ &&
+      !/^(WELKIN_API|inline|constexpr|template|using|static|namespace|concept) / { print "src/welkin/" FILENAME ":" FNR }
+    { templated = /^template / }' "${headers[@]}")
 for header in "${headers[@]}"; do
   [[ $header == welkin.h ]] || grep -qxF "#include \"welkin/$header\"" src/welkin/welkin.h || breach "welkin.h lacks $header"
 done
