@@ -26,7 +26,7 @@ class WELKIN_API LargeMemory {
 
   /// No memory: data() is null, size() 0.
   LargeMemory() = default;
-  /// `bytes` of memory; for 0, none. Throws std::bad_alloc.
+  /// At least `bytes` of memory. Throws std::bad_alloc.
   LargeMemory(std::size_t bytes, Contents contents);
   /// Takes the memory over; `other` has none afterwards.
   LargeMemory(LargeMemory&& other) noexcept
@@ -45,7 +45,7 @@ class WELKIN_API LargeMemory {
   const std::byte* data() const { return data_; }
   /// @}
 
-  /// In bytes, as asked for.
+  /// In bytes: what was asked for, rounded up.
   std::size_t size() const { return size_; }
 
  private:

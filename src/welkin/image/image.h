@@ -48,7 +48,7 @@ class WELKIN_API Image {
   /// No pixels.
   Image() = default;
 
-  /// Throws Error (bad_request) when a size is negative, (too_large) when their product overflows;
+  /// Throws Error (bad_request) when a size is below 1, (too_large) when their product overflows;
   /// std::bad_alloc when there is no memory.
   Image(int width, int height, int channels, PixelContents contents = PixelContents::zero);
 

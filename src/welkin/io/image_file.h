@@ -39,7 +39,7 @@ struct PartInfo {
   int height = 0;    ///< rows
   /// Names, in the order that reading them all gives: R G B A first, then others.
   std::vector<std::string> channels;
-  PixelType type = PixelType::float32;  ///< as stored; of the widest where channels differ
+  PixelType type = PixelType::float32;  ///< that holds all channels' values
   std::string compression;              ///< `none`, `zip`, `rle`, `deflate`, `jpeg`…
   int level = 0;                        ///< of a mip pyramid; 0 is the finest
   int layer = 0;                        ///< of an array texture
@@ -120,12 +120,12 @@ struct WritePart {
 
 /// How a file is written.
 struct WriteOptions {
-  std::optional<PixelType> type =
-      {};  ///< default: the format's best (float for EXR, PFM, TIFF; uint16 for PNG…)
+  /// Default: the format's best, float for EXR, PFM and TIFF, uint16 for PNG….
+  std::optional<PixelType> type = {};
   Colour colour = Colour::automatic;  ///< automatic: sRGB into integer formats, linear into float ones
-  std::string compression =
-      {};            ///< empty: the format's default; `none`, `zip`, `zips`, `rle`, `piz`, `dwaa`…
-  int quality = 95;  ///< of lossy formats, 1…100
+  /// Empty: the format's default; else one of Capabilities::compressions: `none`, `zip`, `piz`, `dwaa`….
+  std::string compression = {};
+  int quality = 95;                                    ///< of lossy formats, 1…100
   std::map<std::string, std::string> attributes = {};  ///< text metadata, in formats that carry it
   std::optional<std::string> envmap = {};              ///< EXR's standard `envmap` attribute
 };

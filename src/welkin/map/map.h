@@ -31,8 +31,8 @@ class WELKIN_API Level {
  public:
   /// No charts.
   Level() = default;
-  /// Charts of one size. Throws Error: (bad_request) a size below 1 or channels outside 1 … kMaxChannels,
-  /// (too_large) more than can be addressed; std::bad_alloc.
+  /// Charts of one size. Throws Error (bad_request): a side below 1, a width or charts one below the other of
+  /// over 2²⁰ texels, channels outside 1 … kMaxChannels; std::bad_alloc.
   Level(int charts, int width, int height, int channels, PixelContents contents = PixelContents::zero);
 
   int charts() const { return charts_; }                ///< how many charts

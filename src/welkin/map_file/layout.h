@@ -84,10 +84,12 @@ WELKIN_API std::optional<ChartSize> chart_size_in(const Layout& layout, int pict
 /// no longer fit the grid.
 WELKIN_API void check_turns(const Layout& layout, ChartSize size);
 
-/// Copies a chart out of a cell's pixels. Sizes match (swapped for odd quarter turns).
+/// Copies a chart out of a cell's pixels, with as many channels. Throws Error (bad_request) unless their
+/// sizes match (swapped for odd quarter turns).
 WELKIN_API void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture,
                                ImageView<float> chart);
-/// Copies a chart into a cell's pixels. Sizes match (swapped for odd quarter turns).
+/// Copies a chart into a cell's pixels, with as many channels. Throws Error (bad_request) unless their sizes
+/// match (swapped for odd quarter turns).
 WELKIN_API void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture);
 /// The same for some of the cell's rows, from `first` on.
 WELKIN_API void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int first,

@@ -96,8 +96,7 @@ WELKIN_API LoadedMap read_map(const std::filesystem::path& path, const ReadMapOp
 WELKIN_API LoadedMap read_map(std::span<const std::byte> bytes, const std::string& name,
                               const ReadMapOptions& options = {});
 
-/// Whether a file of this name can hold levels: EXR and KTX2 can. Throws Error (bad_request) for an extension
-/// that can't be written.
+/// Whether a file of this name can hold levels: EXR and KTX2 can.
 WELKIN_API bool holds_levels(const std::filesystem::path& path);
 
 /// The layout that a file of this format gets when none is named: charts are faces or layers in a texture;

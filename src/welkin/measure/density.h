@@ -36,11 +36,11 @@ inline constexpr double kUnboundedRatio = 5e3;
 WELKIN_API DensityReport density_of(const sphere::AnyParameterization& parameterization, int size);
 
 /// The extremes of solid_angle_density over the valid domain, sr per unit (u, v) area, and that domain's
-/// area, 1 for a full chart.
+/// area, 1 for each full chart.
 struct DensityLimits {
   double minimum;     ///< sr per unit area; 0 at a pole
   double maximum;     ///< sr per unit area; may be infinite
-  double valid_area;  ///< over all charts together divided by their number
+  double valid_area;  ///< of all charts together: 6 of a cube
 };
 /// The limits at infinite resolution, as in DensityReport.
 WELKIN_API DensityLimits density_limits(const sphere::AnyParameterization& parameterization);
