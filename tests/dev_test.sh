@@ -42,7 +42,7 @@ done
 export WELKIN_DRY_RUN=1
 for command in "${commands[@]}"; do
   ends 0 ./dev "$command"
-  case $command in help | packages | format) continue ;; esac
+  case $command in help | packages | docs | format) continue ;; esac
   grep -q '^+ cmake --build ' "$work/out" || fail "./dev $command builds nothing: $(cat "$work/out")"
   for program in $(awk '$1 == "+" && $2 !~ /\// && $2 != "sudo" { print $2 }' "$work/out" | sort -u); do
     command -v "$program" >/dev/null || fail "./dev $command runs $program, which is in no package that it installs"
@@ -69,7 +69,7 @@ if [[ -n $programs ]]; then
   PATH=$work/bin:$PATH ends 0 bash tests/programs.sh "$work/programs"
   PATH=$work/programs ends 127 bash -c 'stranger'
   grep -q 'stranger: command not found' "$work/messages" || fail "a program that is not there: $(cat "$work/messages")"
-  for program in awk bash c++ cmake ctest ninja nm node npm pkg-config sed; do
+  for program in awk bash c++ cmake ctest doxygen ninja nm node npm pkg-config sed; do
     checks=$((checks + 1))
     [[ -x $work/programs/$program ]] || fail "programs.sh leaves out $program"
   done

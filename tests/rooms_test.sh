@@ -3,6 +3,8 @@
 #   - a room of src/welkin includes only itself and the rooms that src/welkin/rooms.txt lets it use, all of which stand before it;
 #     its tests (*_test.cpp, *_cases.h) may use any room before it;
 #   - the table of rooms in docs/architecture.md names the same ones in the same order;
+#   - a public header (src/welkin/public_headers.txt) is there once, and includes only public ones and the standard library; welkin.h
+#     includes all of them; its functions are exported;
 #   - no library header includes the command line's libraries, which cost every includer seconds of compile time;
 #   - a source file of over 400 lines says why in its first ten.
 #
@@ -77,6 +79,41 @@ for folder in src/welkin/*/; do
   done < <(includes '^[[:space:]]*#[[:space:]]*include[[:space:]]*("|<welkin/)' "$folder")
 done
 ((checked > 0)) || breach "no include was found to check"
+
+# Public headers: what is installed compiles without the rest. The standard library's names have no folder and no ending.
+public=src/welkin/public_headers.txt
+mapfile -t headers < <(grep -E '^[a-z]' "$public")
+((${#headers[@]} > 0)) || breach "$public names no header"
+declare -A is_public
+for header in "${headers[@]}"; do
+  [[ -z ${is_public[$header]-} ]] || breach "$public: $header is named twice"
+  is_public[$header]=yes
+done
+for header in "${headers[@]}"; do
+  [[ -f src/welkin/$header ]] || { breach "$public: there is no src/welkin/$header"; continue; }
+  while IFS=: read -r line text; do
+    included=$(sed -E 's/^[^"<]*["<]([^">]*)[">].*$/\1/' <<<"$text")
+    where=src/welkin/$header:$line
+    if [[ $included == "welkin/$header" ]]; then
+      breach "$where: includes itself"
+    elif [[ $included == welkin/* ]]; then
+      [[ -n ${is_public[${included#welkin/}]-} ]] || breach "$where: \"$included\" is not public ($public)"
+    elif [[ ! $text =~ '<'[a-z_]+'>' ]]; then
+      breach "$where: a public header includes \"$included\", which is not of the standard library"
+    fi
+  done < <(grep -nE '^[[:space:]]*#[[:space:]]*include' "src/welkin/$header" || true)
+done
+# A function that a shared library hides links in tests alone, which are linked with the static one.
+while IFS= read -r hidden; do breach "$hidden: a public function without WELKIN_API"; done < <(
+  cd src/welkin && awk '
+    /@cond INTERNAL/ { internal = 1 }
+    /@endcond/ { internal = 0 }
+    !internal && !templated && /^[A-Za-z][A-Za-z0-9_:<>, ]*[ &*](operator[^ ]+|[a-z_0-9]+)\(/ &&
+      !/^(WELKIN_API|inline|constexpr|template|using|static|namespace|concept) / { print "src/welkin/" FILENAME ":" FNR }
+    { templated = /^template / }' "${headers[@]}")
+for header in "${headers[@]}"; do
+  [[ $header == welkin.h ]] || grep -qxF "#include \"welkin/$header\"" src/welkin/welkin.h || breach "welkin.h lacks $header"
+done
 
 while IFS= read -r hit; do
   [[ -n $hit ]] || continue

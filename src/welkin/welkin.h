@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// All of the library (docs/library.md). Programs that mind their compile time include what they use instead.
 
 #include "welkin/base/error.h"
@@ -57,3 +58,14 @@
 #include "welkin/sphere/traits.h"
 #include "welkin/synth/render_synth.h"
 #include "welkin/synth/synth.h"
+
+/// Environment maps: read, convert, filter, measure, write.
+namespace welkin {}
+/// Pictures ↔ files.
+namespace welkin::io {}
+/// Rotationally symmetric lobes, by which maps are pre-filtered.
+namespace welkin::lobe {}
+/// Parameterizations: where a direction lies in a picture.
+namespace welkin::sphere {}
+/// Built-in maps, as functions of direction.
+namespace welkin::synth {}

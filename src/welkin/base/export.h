@@ -1,8 +1,9 @@
 #pragma once
 
-#include "welkin/base/export.h"
+/// @file
+/// The macro that exports.
 
-/// WELKIN_API marks what a shared library shows to its users; all else is hidden (src/welkin/CMakeLists.txt).
+/// Marks what a shared library shows to its users; all else is hidden (src/welkin/CMakeLists.txt).
 #if defined(__GNUC__)
 #define WELKIN_API __attribute__((visibility("default")))
 #else

@@ -5,6 +5,8 @@
 
 #include "welkin/base/export.h"
 
+/// @file
+/// Memory for pixels and tables.
 namespace welkin {
 
 /// Memory for pixels and tables, on a 64-byte boundary.
@@ -16,16 +18,20 @@ namespace welkin {
 /// many threads.
 class WELKIN_API LargeMemory {
  public:
+  /// What new memory holds.
   enum class Contents {
-    zero,
-    unset,  ///< whatever is there: for those who write all of it
+    zero,   ///< all bytes 0
+    unset,  ///< unspecified values: for those who write all of it
   };
 
+  /// No memory: data() is null, size() 0.
   LargeMemory() = default;
-  /// Throws std::bad_alloc.
+  /// At least `bytes` of memory. Throws std::bad_alloc.
   LargeMemory(std::size_t bytes, Contents contents);
+  /// Takes the memory over; `other` has none afterwards.
   LargeMemory(LargeMemory&& other) noexcept
       : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+  /// Swaps the two.
   LargeMemory& operator=(LargeMemory&& other) noexcept {
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
@@ -33,8 +39,13 @@ class WELKIN_API LargeMemory {
   }
   ~LargeMemory();
 
+  /// The first byte, on a 64-byte boundary; null where there is none.
+  /// @{
   std::byte* data() { return data_; }
   const std::byte* data() const { return data_; }
+  /// @}
+
+  /// In bytes: what was asked for, rounded up.
   std::size_t size() const { return size_; }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "welkin/base/export.h"
 
+/// @file
 /// Numbers as text in files and options: a decimal point whatever the locale of the program says.
 namespace welkin {
 

@@ -4,9 +4,11 @@
 
 #include "welkin/base/export.h"
 
+/// @file
+/// The version of the library.
 namespace welkin {
 
-/// Of the library: `0.1.0`.
+/// The version of the library that is linked: `0.1.0`.
 WELKIN_API std::string_view version();
 
 }  // namespace welkin

@@ -7,27 +7,33 @@
 #include "welkin/filter/filter.h"
 #include "welkin/map/map.h"
 
+/// @file
+/// A map from another.
 namespace welkin {
 
+/// How a map is made from another.
 struct ResampleOptions {
-  Filter filter = Filter::automatic;
-  /// Turns the world: what was seen along d is seen along rotation·d afterwards.
-  Matrix3 rotation;
-  /// Bicubic and Lanczos weights are negative in places. Unless this is set, a result is held near the range
-  /// of the texels around it (fetch.h), so light never becomes negative beside a bright spot.
+  Filter filter = Filter::automatic;  ///< how the source is read
+  /// Rotates the world: what was seen along d is seen along rotation·d afterwards. Orthonormal; not checked
+  /// (is_orthonormal).
+  Matrix3 rotation = {};
+  /// Bicubic and Lanczos kernels have negative lobes. Unless this is set, their overshoot is clamped to near
+  /// the range of the footprint's texels, so radiance never becomes negative beside a bright spot
+  /// (docs/filtering.md, "Overshoot").
   bool allow_ringing = false;
-  /// For directions that the source doesn't show and texels that aren't a place of the target: one value per
-  /// channel; 0 where there are fewer.
-  std::vector<float> fill;
-  bool borders = true;  ///< false: leave the target's borders (fill_borders) to the caller
-  Monitor monitor;
+  /// For directions that the source doesn't show and texels that aren't a position of the target: one value
+  /// per channel; 0 where there are fewer.
+  std::vector<float> fill = {};
+  bool borders = true;   ///< false: leave the target's borders (fill_borders) to the caller
+  Monitor monitor = {};  ///< progress and cancelling
 };
 
 /// Fills the target's charts from the source, whose borders must be filled, and then the target's borders.
-/// Both have the same number of channels. Reads the source only; besides it needs at most a pyramid of a
-/// third of the source, and only to minify more than sixteenfold. Positions are exact to 1e-6 of a chart's
-/// side; the error of `automatic` against exact area sampling is measured in docs/benchmarks.md. Throws Error
-/// (bad_request) for maps of other numbers of channels; Cancelled.
+/// Each is read by its own orientation; channels go by position, and both have as many. The two are different
+/// maps. Reads the source only; besides it needs at most a pyramid of a third of the source, and only to
+/// minify more than sixteenfold. Positions are exact to 1e-6 of a chart's side; the error of `automatic`
+/// against exact area sampling is measured in docs/benchmarks.md. Throws Error (bad_request) for maps of
+/// other numbers of channels; Cancelled.
 ///
 /// A target of the source's own parameterization, size and orientation gets the texels as they are.
 WELKIN_API void resample(const Map& source, Map& target, const ResampleOptions& options = {});

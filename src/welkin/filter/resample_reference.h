@@ -3,9 +3,11 @@
 #include "welkin/base/export.h"
 #include "welkin/filter/resample.h"
 
+/// @file
+/// Resampling in float64, to measure against.
 namespace welkin {
 
-/// What resample() is measured against: the same contract in float64, one place after another.
+/// What resample() is measured against: the same contract in float64, one position after another.
 ///
 /// Nearest, bilinear, bicubic and lanczos are one look-up per texel through AnyParameterization's double
 /// functions, with kernel weights in double, from the source's texels and borders.
@@ -16,7 +18,7 @@ namespace welkin {
 /// resample() itself interpolates with Lanczos where it does not minify, and that is not compared here.
 ///
 /// Directions that the source does not show count as `fill`, and so does a texel none of whose points is a
-/// place of the target. Fills the target's charts, not its borders. samples ≥ 1; both maps have the same
+/// position of the target. Fills the target's charts, not its borders. samples ≥ 1; both maps have the same
 /// number of channels. Error: float rounding of the result. Throws Cancelled.
 WELKIN_API void resample_reference(const Map& source, Map& target, const ResampleOptions& options,
                                    int samples);

@@ -10,13 +10,16 @@
 #include "welkin/filter/filter.h"
 #include "welkin/map/chain.h"
 
+/// @file
+/// Radiance along directions.
 namespace welkin {
 
+/// How a map is looked up.
 struct SamplerOptions {
   /// `automatic` counts as `bicubic`: a direction has no area to average over.
   Filter filter = Filter::bilinear;
-  /// Bicubic and Lanczos results are limited to near the range of their texels, so that positive radiance
-  /// stays positive (docs/filtering.md, "Overshoot"), or left as they are.
+  /// false: overshoot of bicubic and Lanczos is clamped to near the range of the footprint's texels, so that
+  /// positive radiance stays positive (docs/filtering.md, "Overshoot"). true: unclamped.
   bool allow_ringing = false;
   /// Levels of a map's own pyramid, weighted by solid angle, that can be looked up, the map itself included;
   /// at most as many as there are down to one texel, and 0 is all of them. Those of a chain are its own.
@@ -25,7 +28,9 @@ struct SamplerOptions {
 
 /// Directions as three arrays of one length.
 struct DirectionArrays {
-  std::span<const float> x, y, z;
+  std::span<const float> x;  ///< first components
+  std::span<const float> y;  ///< second components
+  std::span<const float> z;  ///< third components
 };
 
 /// Looks radiance up along directions: a map (or a chain), its pyramid and a filter.
@@ -58,39 +63,52 @@ class WELKIN_API Sampler {
   /// The chain's levels as they are. Throws Error when it has none, or they differ in parameterization,
   /// orientation or number of channels.
   explicit Sampler(Chain chain, const SamplerOptions& options = {});
+  /// The same of a chain that is shared, and must not change any more.
   explicit Sampler(std::shared_ptr<const Chain> chain, const SamplerOptions& options = {});
 
   /// Looks the caller's map up, which must outlive the sampler and all its copies, and not change meanwhile.
   static Sampler borrow(const Map& map, const SamplerOptions& options = {});
   static Sampler borrow(const Map&& map, const SamplerOptions& options = {}) = delete;
 
+  /// Values along a direction.
   int channels() const;
+  /// How many levels can be looked up, at least 1.
   int levels() const;
 
   /// Along one direction.
+  /// @{
   void look_up(const Vec3<float>& direction, std::span<float> radiance, double level = 0) const;
   void look_up(const Vec3d& direction, std::span<float> radiance, double level = 0) const;
+  /// @}
 
-  /// The first three channels. Throws Error when there are fewer.
+  /// The first three channels along one direction. Throws Error when there are fewer.
+  /// @{
   std::array<float, 3> rgb(const Vec3<float>& direction, double level = 0) const;
   std::array<float, 3> rgb(const Vec3d& direction, double level = 0) const;
+  /// @}
 
-  /// Along many directions, all at one level.
+  /// Along many directions, all at one level. In the calling thread.
+  /// @{
   void look_up(std::span<const Vec3<float>> directions, std::span<float> radiance, double level = 0) const;
   void look_up(std::span<const Vec3d> directions, std::span<float> radiance, double level = 0) const;
   void look_up(const DirectionArrays& directions, std::span<float> radiance, double level = 0) const;
+  /// @}
 
-  /// Each at a level of its own; there are as many levels as directions.
+  /// Each at a level of its own; there are as many levels as directions. In the calling thread.
+  /// @{
   void look_up(std::span<const Vec3<float>> directions, std::span<float> radiance,
                std::span<const float> levels) const;
   void look_up(std::span<const Vec3d> directions, std::span<float> radiance,
                std::span<const float> levels) const;
   void look_up(const DirectionArrays& directions, std::span<float> radiance,
                std::span<const float> levels) const;
+  /// @}
 
   /// Whether the map shows a direction. At the rim of what is shown, by the same arithmetic as look_up.
+  /// @{
   bool covers(const Vec3<float>& direction) const;
   bool covers(const Vec3d& direction) const;
+  /// @}
 
   class State;
 

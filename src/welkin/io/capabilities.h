@@ -7,17 +7,27 @@
 
 #include "welkin/base/export.h"
 
+/// @file
+/// What file formats hold.
 namespace welkin::io {
 
 /// How one value of a pixel is stored in the file. In memory every value is a 32-bit float.
-/// rgb9e5 and r11g11b10 pack three values that are never negative into 32 bits: nine bits each with an
+/// `rgb9e5` and `r11g11b10` pack three values that are never negative into 32 bits: nine bits each with an
 /// exponent in common, and small floats of 6, 6 and 5 bits of mantissa.
-enum class PixelType { uint8, uint16, uint32, half, float32, rgb9e5, r11g11b10 };
+enum class PixelType {
+  uint8,      ///< 0…255 for 0…1
+  uint16,     ///< 0…65535 for 0…1
+  uint32,     ///< in EXR whole numbers as they are, else 0…4294967295 for 0…1
+  half,       ///< IEEE 754 binary16
+  float32,    ///< IEEE 754 binary32
+  rgb9e5,     ///< three of nine bits with a common exponent
+  r11g11b10,  ///< three small floats without sign
+};
 
-/// `uint8`, `uint16`, `uint32`, `half`, `float`, `rgb9e5`, `r11g11b10`.
+/// The name in options: `uint8`, `uint16`, `uint32`, `half`, `float`, `rgb9e5`, `r11g11b10`.
 WELKIN_API std::string_view name_of(PixelType type);
 
-/// Throws Error (bad_request) for another name.
+/// The type of that name. Throws Error (bad_request) for another, which suggests the nearest.
 WELKIN_API PixelType pixel_type_from_name(std::string_view name);
 
 /// Which channels a picture of a format can have.
@@ -34,27 +44,28 @@ struct WELKIN_API Capabilities {
   std::vector<std::string> extensions;    ///< without dots, in small letters: `jpg`, `jpeg`
   std::vector<PixelType> types;           ///< the default first
   std::vector<std::string> compressions;  ///< names for WriteOptions::compression, the default first
-  Channels channels = Channels::rgb;
-  bool pictures = false;    ///< several pictures in one file: parts, pages
-  bool levels = false;      ///< levels, each half as large as the one before
-  bool texture = false;     ///< faces and layers of a texture that a graphics card looks up
-  bool lossless = true;     ///< what is stored is what was given, rounded to the type
-  bool hdr = false;         ///< values over 1
-  bool negative = false;    ///< values below 0
-  bool attributes = false;  ///< text metadata, with which a map's shape comes back when it is read
-  int longest_side = 1 << 20;
+  Channels channels = Channels::rgb;      ///< which channels a picture can have
+  bool pictures = false;                  ///< several pictures in one file: parts, pages
+  bool levels = false;                    ///< levels, each half as large as the one before
+  bool texture = false;                   ///< faces and layers of a texture that GPUs sample
+  bool lossless = true;                   ///< what is stored is what was given, rounded to the type
+  bool hdr = false;                       ///< values over 1
+  bool negative = false;                  ///< values below 0
+  bool attributes = false;     ///< text metadata, with which a map's shape comes back when it is read
+  int longest_side = 1 << 20;  ///< of a picture, texels
 
+  /// Whether `types` has this one.
   bool holds(PixelType type) const;
 };
 
 /// All formats that are read, in the order in which a file is tried; all can be written too.
 WELKIN_API const std::vector<Capabilities>& all_capabilities();
 
-/// By the format's name. Throws Error (bad_request), which suggests the nearest.
+/// Those of the format of that name. Throws Error (bad_request), which suggests the nearest.
 WELKIN_API const Capabilities& capabilities(std::string_view format);
 
-/// Of the format that a file of this name is written in. Throws Error (bad_request), about the file, when the
-/// extension is none that can be written.
+/// Those of the format that a file of this name is written in. Throws Error (bad_request), about the file,
+/// when the extension is none that can be written.
 WELKIN_API const Capabilities& capabilities_for(const std::filesystem::path& path);
 
 /// Extensions that can be written, without dots: `exr hdr ktx2 pfm png jpg jpeg tif tiff webp`.

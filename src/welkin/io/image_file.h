@@ -17,58 +17,69 @@
 #include "welkin/io/byte_sink.h"
 #include "welkin/io/capabilities.h"
 
-/// Bytes ↔ images. This room knows files and pixels; what a picture means on the sphere is decided in map/.
+/// @file
+/// Bytes ↔ images. This room knows files and pixels; what a picture means on the sphere is decided in
+/// map_file/.
 namespace welkin::io {
 
 /// The transfer function of stored colour values. Linear is radiance; sRGB is IEC 61966-2-1, made linear on
 /// reading. Alpha is always linear.
-enum class Colour { automatic, linear, srgb };
+enum class Colour {
+  automatic,  ///< by the format: see ReadOptions and WriteOptions
+  linear,     ///< stored values are proportional to radiance
+  srgb,       ///< stored values are sRGB-encoded
+};
 
 /// One picture of a file: the only one in most formats, one of many in a multi-part EXR, a multi-page TIFF,
 /// or a texture with levels. Pictures of a texture come level by level, then layer by layer, then face by
 /// face.
 struct PartInfo {
   std::string name;  ///< EXR part name; empty where the format has none
-  int width = 0;
-  int height = 0;
-  std::vector<std::string>
-      channels;  ///< in the order that reading them all gives: R G B A first, then others
-  PixelType type = PixelType::float32;
-  std::string compression;  ///< `none`, `zip`, `rle`, `deflate`, `jpeg`…
-  int level = 0;            ///< of a mip pyramid; 0 is the finest
-  int layer = 0;            ///< of an array texture
-  int face = 0;             ///< of a cube texture: +X −X +Y −Y +Z −Z
+  int width = 0;     ///< texels
+  int height = 0;    ///< rows
+  /// Names, in the order that reading them all gives: R G B A first, then others.
+  std::vector<std::string> channels;
+  PixelType type = PixelType::float32;  ///< that holds all channels' values
+  std::string compression;              ///< `none`, `zip`, `rle`, `deflate`, `jpeg`…
+  int level = 0;                        ///< of a mip pyramid; 0 is the finest
+  int layer = 0;                        ///< of an array texture
+  int face = 0;                         ///< of a cube texture: +X −X +Y −Y +Z −Z
 };
 
 /// What a file says of itself, known before any pixel is decoded.
 struct FileInfo {
-  std::string format;  ///< `exr`, `hdr`, `ktx2`, `pfm`, `png`, `jpeg`, `tiff`, `webp`
-  std::vector<PartInfo> parts;
+  std::string format;              ///< `exr`, `hdr`, `ktx2`, `pfm`, `png`, `jpeg`, `tiff`, `webp`
+  std::vector<PartInfo> parts;     ///< its pictures, at least one
   int levels = 1;                  ///< of a mip pyramid
   int layers = 0;                  ///< of an array texture; 0 when it is none
   int faces = 1;                   ///< 6 of a cube texture
   Colour colour = Colour::linear;  ///< the transfer function that reading will undo
-  std::map<std::string, std::string>
-      attributes;  ///< text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
+  /// Text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
+  std::map<std::string, std::string> attributes;
   std::optional<std::string> envmap;  ///< EXR's standard `envmap` attribute: `latlong` or `cube`
   std::vector<std::string> notes;  ///< what a person would like to know: tiles, data window, orientation…
-  std::uint64_t bytes = 0;
+  std::uint64_t bytes = 0;         ///< of the file
 };
 
+/// How a file is read.
 struct ReadOptions {
-  Colour colour =
-      Colour::automatic;  ///< automatic: 8- and 16-bit integer formats are sRGB, all others linear
-  std::uint64_t max_bytes = std::uint64_t{32} << 30;  ///< refuse images whose decoded floats would need more
+  /// The transfer function of stored values. `automatic`: what the file declares, else sRGB for integers of 8
+  /// and 16 bits, linear for all others.
+  Colour colour = Colour::automatic;
+  /// Images whose decoded floats would need more bytes are refused: Error (too_large).
+  std::uint64_t max_bytes = std::uint64_t{32} << 30;
 };
 
 /// An open image file. Headers are parsed and checked (against ReadOptions::max_bytes and against the file's
 /// own length where the format allows) when it is opened; pixels are decoded by `read`.
 ///
-/// Failures throw Error, `FILE: cause (byte offset or row where it helps)`.
+/// Failures throw Error about the file, (damaged, unsupported, too_large…), with the byte offset or the row
+/// where it helps. One thread at a time for each reader.
 class WELKIN_API Reader {
  public:
   virtual ~Reader();
 
+  /// What the file says of itself; valid as long as the reader.
   const FileInfo& info() const { return info_; }
 
   /// Decodes the part's channels numbered `channels` (indices into PartInfo::channels, one per channel of
@@ -79,40 +90,44 @@ class WELKIN_API Reader {
   void read(std::size_t part, std::span<const int> channels, ImageView<float> out);
 
  protected:
-  /// What read does, its arguments checked.
+  /// What read does, its arguments checked. For formats.
   virtual void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) = 0;
 
-  FileInfo info_;
+  FileInfo info_;  ///< filled by the format when it opens
 };
 
-/// Opens a file by its first bytes, never by its name.
+/// Opens a file, its format known by its first bytes, never by its name. It may be a pipe. Throws Error about
+/// the file: (not_found, denied, system), (unsupported) for bytes of no known format, and what Reader says.
 WELKIN_API std::unique_ptr<Reader> open(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same from memory, which must outlive the reader; `name` stands for the path in messages.
 WELKIN_API std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name,
                                         const ReadOptions& options = {});
 
-/// A picture to be written, its channels named: `R G B`, `R G B A`, `Y`…
+/// A picture to be written. `image` is a view: its pixels must last until they are written.
 struct WritePart {
-  std::string name;
-  ImageView<const float> image;
-  std::vector<std::string> channels;
-  int level = 0;  ///< level, layer and face as in PartInfo, in formats of textures
-  int layer = 0;
-  int face = 0;
+  std::string name;                   ///< EXR part name; may be empty for a single part
+  ImageView<const float> image;       ///< linear values
+  std::vector<std::string> channels;  ///< the name of each of the image's: `R G B`, `R G B A`, `Y`…
+  int level = 0;                      ///< as in PartInfo, in formats of textures
+  int layer = 0;                      ///< as in PartInfo
+  int face = 0;                       ///< as in PartInfo
   /// Where this is set, the picture needn't lie in memory: `image` gives its size alone, without data, and
   /// `draw(y, rows)` fills all texels of `rows`, which are those of the picture from row y on. Called for
   /// rows in any order, again for some, and from several threads at once.
   std::function<void(int y, ImageView<float> rows)> draw = nullptr;
 };
 
+/// How a file is written.
 struct WriteOptions {
-  std::optional<PixelType> type;  ///< default: the format's best (float for EXR, PFM, TIFF; uint16 for PNG…)
+  /// Default: the format's best, float for EXR, PFM and TIFF, uint16 for PNG….
+  std::optional<PixelType> type = {};
   Colour colour = Colour::automatic;  ///< automatic: sRGB into integer formats, linear into float ones
-  std::string compression;  ///< empty: the format's default; `none`, `zip`, `zips`, `rle`, `piz`, `dwaa`…
-  int quality = 95;         ///< of lossy formats, 1…100
-  std::map<std::string, std::string> attributes;  ///< text metadata, in formats that carry it
-  std::optional<std::string> envmap;              ///< EXR's standard `envmap` attribute
+  /// Empty: the format's default; else one of Capabilities::compressions: `none`, `zip`, `piz`, `dwaa`….
+  std::string compression = {};
+  int quality = 95;                                    ///< of lossy formats, 1…100
+  std::map<std::string, std::string> attributes = {};  ///< text metadata, in formats that carry it
+  std::optional<std::string> envmap = {};              ///< EXR's standard `envmap` attribute
 };
 
 /// What writing lost, for the caller to report.
@@ -122,24 +137,28 @@ struct WriteReport {
   std::uint64_t not_finite = 0;  ///< NaN or infinity in a format that has neither
 };
 
-/// Writes to a temporary file beside `path`, then renames it: on any failure nothing is left and an older
-/// file of that name stays. The format follows the name's extension. More than one part: EXR,
-/// KTX2 and TIFF only.
+/// Writes pictures to a file: to a temporary one beside `path`, then renamed, so that on any failure nothing
+/// is left and an older file of that name stays. The format follows the name's extension. More than one part:
+/// EXR, KTX2 and TIFF only. Values that the format can't hold are clipped and counted in the report. Throws
+/// Error about the file: (bad_request, unsupported, too_large) for what the format doesn't hold, (not_found,
+/// denied, system) for folders and disks.
 WELKIN_API WriteReport write(const std::filesystem::path& path, std::span<const WritePart> parts,
                              const WriteOptions& options = {});
 
 /// A file of a set.
 struct WriteFile {
-  std::filesystem::path path;
-  std::vector<WritePart> parts;
+  std::filesystem::path path;    ///< its extension chooses the format
+  std::vector<WritePart> parts;  ///< as in `write`
 };
 
 /// The same for files that belong together, as the faces of a cube: they appear only when all are written.
+/// They are then renamed one after the other: should the system refuse one, those before it have appeared.
 /// `next(i)` gives each of `count` files when its turn comes; what it refers to may be gone at the next call.
 WELKIN_API WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size_t)>& next,
                                  const WriteOptions& options = {});
 
-/// The same into a sink, in the format of that name (Capabilities::format).
+/// The same into a sink, in the format of that name (Capabilities::format). On failure the sink holds part of
+/// a file.
 WELKIN_API WriteReport write(ByteSink& sink, std::string_view format, std::span<const WritePart> parts,
                              const WriteOptions& options = {});
 

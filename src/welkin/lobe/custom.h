@@ -9,10 +9,12 @@
 #include "welkin/base/export.h"
 #include "welkin/lobe/lobe.h"
 
+/// @file
 /// Lobes of one's own: a struct becomes an AnyLobe, and maps are pre-filtered, verified and plotted with it.
 /// Its float functions are compiled where this is used, for whatever instruction set that is compiled for.
 namespace welkin::lobe {
 
+/// @cond INTERNAL
 /// What AnyLobe forwards to. Implemented by ModelOf.
 class WELKIN_API AnyLobe::Model {
  public:
@@ -144,18 +146,37 @@ class ModelOf final : public AnyLobe::Model {
   L lobe_;
 };
 
-/// What a lobe of one's own provides: a default constructible, copyable struct with
+/// @endcond
+
+// clang-format off
+/// What a lobe of one's own provides: a default constructible, copyable struct.
 ///
-///     static constexpr const char* kName    its name, which differs from those of `lobe_names`
-///     template <class T> T weight(T s) const
-///                                           w(s), s = 1 − cos θ from 0 to 2, for double and float: finite,
-///                                           not negative, not normalised
-///     double width() const                  radians: about where the weight has fallen to half of its
-///     largest std::vector<double> breakpoints() const
-///                                           the s between 0 and 2 where w isn't smooth
+///     struct Name {
+///       static constexpr const char* kName = "name";  // differs from those of lobe_names()
 ///
-/// and where it likes kDescription, kSource, mirror(), integral(), visit_parameters and visit_synonyms, as
-/// the lobes of the library have them (all.h in its source).
+///       // w(s), s = 1 − cos θ, 0 ≤ s ≤ 2, for double and float: finite, not negative, not normalised, not all 0.
+///       template <class T> T weight(T s) const;
+///
+///       // Radians, 1e-7 … π: about where the weight has fallen to half of its largest.
+///       double width() const;
+///
+///       // The s between 0 and 2 where w isn't smooth, ascending.
+///       std::vector<double> breakpoints() const;
+///
+///       // Optional:
+///       static constexpr const char* kDescription = "one line: what it is for";
+///       static constexpr const char* kSource = "author, year, equation";
+///       double roughness = 0.5;                       // a parameter: any member that is a double
+///       template <class V> void visit_parameters(V&& visit) {
+///         visit("roughness", roughness, 0.0, 1.0, "0 is a mirror");  // name, member, least, largest, description
+///       }
+///       template <class V> void visit_synonyms(V&& visit);  // as well: other names for numbers, 0 when not given
+///       bool mirror() const;                          // all weight at s = 0
+///       std::optional<double> integral() const;       // ∫ w dω, sr, where there is a closed form
+///     };
+///
+/// Its functions are called from many threads at once.
+// clang-format on
 template <class L>
 concept Lobe = std::default_initializable<L> && std::copyable<L> &&
     requires(const L& lobe, double s, float f) {
@@ -166,8 +187,8 @@ concept Lobe = std::default_initializable<L> && std::copyable<L> &&
   { lobe.breakpoints() } -> std::convertible_to<std::vector<double>>;
 };
 
-/// The lobe of this struct. Throws Error (bad_request) when its width makes no sense. Its spec is its name
-/// and parameters, which AnyLobe::make doesn't know.
+/// The lobe of this struct, copied. Throws Error (bad_request) when its width isn't over 0 and at most π. Its
+/// spec is its name and parameters, which AnyLobe::make doesn't know.
 template <Lobe L>
 AnyLobe make_lobe(L lobe = {}) {
   return AnyLobe::from_model(std::make_shared<ModelOf<L>>(std::move(lobe)));

@@ -6,6 +6,8 @@
 
 #include "welkin/base/export.h"
 
+/// @file
+/// Which roughness each level of a chain has.
 namespace welkin::lobe {
 
 /// Which roughness each level of a chain is filtered for: an engine's own curve by its name, or a list. The
@@ -26,14 +28,16 @@ class WELKIN_API RoughnessCurve {
   /// How many levels a list is for; 0 for a named curve, which takes any number.
   int listed_levels() const { return static_cast<int>(list_.size()); }
 
-  /// Roughness of a place between level 0 and level levels − 1, which `level` is clamped to. Never falls.
-  /// Throws Error when there is a list, and it is for another number of levels; `levels` is at least 1. A
-  /// chain of one level is at roughness 0, or what the list has; of unreal and three.js at 1.
+  /// Roughness at a level, a real number and not NaN, clamped to 0 … levels − 1; between two levels of a list
+  /// it is linear. Never falls as the level grows. Throws Error when there is a list, and it is for another
+  /// number of levels; `levels` is at least 1. A chain of one level is at roughness 0, or what the list has;
+  /// of unreal and three.js at 1.
   double roughness(double level, int levels) const;
   /// The inverse, clamped to 0 … levels − 1. Where several levels have the roughness, the first. Throws Error
   /// like `roughness`, and for a roughness outside 0 … 1.
   double level_of(double roughness, int levels) const;
 
+  /// roughness(k, levels) for k = 0 … levels − 1. Throws Error like `roughness`.
   std::vector<double> roughness_of_levels(int levels) const;
 
  private:
@@ -44,7 +48,7 @@ class WELKIN_API RoughnessCurve {
   std::vector<double> list_;
 };
 
-/// Names of the curves that aren't lists.
+/// Names of the curves that aren't lists, `linear` first.
 WELKIN_API const std::vector<std::string>& roughness_curve_names();
 
 }  // namespace welkin::lobe

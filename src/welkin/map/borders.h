@@ -3,10 +3,12 @@
 #include "welkin/base/export.h"
 #include "welkin/map/map.h"
 
+/// @file
+/// What lies past a chart's edge.
 namespace welkin {
 
-/// Fills every chart's border, and the texels inside a chart that are no place of the map (the corners of a
-/// disc) as far as a kernel reaches over the rim. This is the only function that knows what lies past a
+/// Fills every chart's border, and the texels inside a chart that are no position of the map (the corners of
+/// a disc) as far as a kernel reaches over the rim. This is the only function that knows what lies past a
 /// chart's edge.
 ///
 /// Each such texel lies, by the chart's extended domain, in some direction. It takes the value that the map
@@ -15,6 +17,7 @@ namespace welkin {
 /// hemisphere) it takes the mean of its neighbours that do, ring by ring.
 WELKIN_API void fill_borders(const sphere::AnyParameterization& parameterization, Level& level);
 
+/// Those of a map. Call it after texels were written through a view.
 inline void fill_borders(Map& map) {
   fill_borders(map.parameterization, map.level);
 }

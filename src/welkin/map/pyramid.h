@@ -5,6 +5,8 @@
 #include "welkin/base/export.h"
 #include "welkin/map/map.h"
 
+/// @file
+/// Coarser levels of a map.
 namespace welkin {
 
 /// How a pyramid averages the texels of the finer level.
@@ -23,7 +25,7 @@ WELKIN_API Level reduce(const sphere::AnyParameterization& parameterization, con
 WELKIN_API std::vector<Level> make_pyramid(const Map& map, int levels,
                                            TexelWeight weight = TexelWeight::solid_angle);
 
-/// How many levels lie between a map of this size and one texel.
+/// How many coarser levels a map of this size has, down to one texel.
 WELKIN_API int levels_below(int width, int height);
 
 }  // namespace welkin

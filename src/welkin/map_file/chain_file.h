@@ -6,10 +6,11 @@
 #include "welkin/map/chain.h"
 #include "welkin/map_file/map_file.h"
 
+/// @file
 /// Chains ↔ files (docs/chains.md).
 namespace welkin {
 
-/// Throws Error when a chain of so many levels has no place in such a file, naming the path and the cause: a
+/// Throws Error when such a file can't hold a chain of so many levels, naming the path and the cause: a
 /// format without levels, more of them than the size has, a layout in several files or with a safety border,
 /// a picture whose levels aren't pictures of halved charts. Always passes for one level.
 WELKIN_API void check_chain(const std::filesystem::path& path, const MapShape& shape, ChartSize finest,
@@ -27,8 +28,10 @@ WELKIN_API io::WriteReport write_chain(const std::filesystem::path& path, const 
 WELKIN_API io::WriteReport write_chain(io::ByteSink& sink, std::string_view format, const Chain& chain,
                                        const WriteMapOptions& options = {});
 
-/// All levels of a file; one of a file without levels. Changes the level that the reader is set to.
+/// All levels of a file; one of a file without levels. Their borders are filled. Changes the level that the
+/// reader is set to. Throws as MapReader::read does.
 WELKIN_API Chain read_chain(MapReader& reader);
+/// Opens and reads.
 WELKIN_API Chain read_chain(const std::filesystem::path& path, const ReadMapOptions& options = {});
 
 /// From memory, which must last until this returns; `name` stands for the path in messages.

@@ -13,22 +13,24 @@
 #include "welkin/map/map.h"
 #include "welkin/map_file/layout.h"
 
+/// @file
 /// Image files ↔ maps: which parameterization a picture has, and where its charts lie in it.
 namespace welkin {
 
+/// How a map's file is read.
 struct ReadMapOptions {
-  std::optional<std::string>
-      shape;  ///< NAME[:LAYOUT][,PARAMETER=VALUE]…; without it, what the file declares, else a guess
-  std::string faces;  ///< see with_faces; empty for the layout's own order
+  /// `NAME[:LAYOUT][,PARAMETER=VALUE]…`; without it, what the file declares, else a guess.
+  std::optional<std::string> shape = {};
+  std::string faces = {};  ///< see with_faces; empty for the layout's own order
   /// Which channels become the map's: names of the file. Empty: R G B (A), or Y (A), or the first three.
-  std::vector<std::string> channels;
-  /// How the file's directions relate to the native world (convention.h); without it, what the file declares,
-  /// else native.
-  std::optional<Matrix3> orientation;
+  std::vector<std::string> channels = {};
+  /// How the file's directions relate to the native world (convention.h), orthonormal; without it, what the
+  /// file declares, else native.
+  std::optional<Matrix3> orientation = {};
   int border = 0;  ///< texels of safety border around every chart in the file, besides what the file declares
   std::size_t part = 0;  ///< of a file with several pictures; where these are the charts, of several sets
   int level = 0;         ///< of a file with levels; 0 is the finest
-  io::ReadOptions image;
+  io::ReadOptions image = {};  ///< transfer function, limit of memory
 };
 
 /// What is known of a map's file before its pixels are read.
@@ -41,26 +43,31 @@ struct MapFileInfo {
                                   ///< without a shape
   ChainNotes notes;               ///< what the file says of its levels
   int border = 0;                 ///< safety border around every chart in the file, texels
-  Matrix3 orientation;
+  Matrix3 orientation;            ///< that the map will have
 };
 
 /// A map's file, opened once: it may be a pipe. `path` contains `%s` when the charts are in files of their
-/// own; the first of these is opened, the others when they are read. Members throw Error: files that can't be
-/// read, shapes that don't exist, sizes that don't fit the shape.
+/// own; the first of these is opened, the others when they are read. Members throw Error: (not_found, denied,
+/// damaged, unsupported, too_large…) files that can't be read, (bad_request) shapes and levels that don't
+/// exist, (mismatch) sizes that don't fit the shape. One thread at a time for each reader.
 class WELKIN_API MapReader {
  public:
+  /// Opens the file and finds its shape; no pixel is decoded.
   explicit MapReader(const std::filesystem::path& path, const ReadMapOptions& options = {});
   /// From memory, which must outlive the reader; `name` stands for the path in messages.
   MapReader(std::span<const std::byte> bytes, const std::string& name, const ReadMapOptions& options = {});
 
+  /// What is known of the file; valid as long as the reader, and follows what is set.
   const MapFileInfo& info() const { return info_; }
 
   /// The shape. Throws Error (bad_request) where there is none: give it as ReadMapOptions::shape.
   const MapShape& shape() const;
 
-  /// Changes these options, now that the shape is known.
+  /// Changes ReadMapOptions::faces, now that the shape is known.
   void set_faces(std::string faces);
+  /// Changes ReadMapOptions::orientation.
   void set_orientation(const Matrix3& orientation);
+  /// Changes ReadMapOptions::level.
   void set_level(int level);
 
   /// The map, its borders filled. Throws also when the shape is unknown. A picture of one chart is decoded
@@ -77,12 +84,13 @@ class WELKIN_API MapReader {
   MapFileInfo info_;
 };
 
+/// A map, and the file that it came from.
 struct LoadedMap {
-  Map map;
-  MapFileInfo info;
+  Map map;           ///< its borders filled
+  MapFileInfo info;  ///< what the file said
 };
 
-/// Opens and reads.
+/// Opens and reads. Throws as MapReader does.
 WELKIN_API LoadedMap read_map(const std::filesystem::path& path, const ReadMapOptions& options = {});
 /// The same from memory; `name` stands for the path in messages.
 WELKIN_API LoadedMap read_map(std::span<const std::byte> bytes, const std::string& name,
@@ -96,6 +104,7 @@ WELKIN_API bool holds_levels(const std::filesystem::path& path);
 /// first of layouts_of.
 WELKIN_API Layout default_layout(const sphere::AnyParameterization& parameterization,
                                  const io::Capabilities& format, int levels = 1);
+/// The same for the format of a file of this name.
 WELKIN_API Layout default_layout(const sphere::AnyParameterization& parameterization,
                                  const std::filesystem::path& path, int levels = 1);
 
@@ -114,11 +123,12 @@ WELKIN_API void check_face_pattern(const std::filesystem::path& path, const Layo
 WELKIN_API std::vector<std::filesystem::path> files_of(const std::filesystem::path& path,
                                                        const sphere::AnyParameterization& parameterization);
 
+/// How a map is written.
 struct WriteMapOptions {
-  io::WriteOptions image;
-  std::string faces;  ///< see with_faces
-  int border = 0;     ///< texels of safety border to write around every chart (safety_border.h); the map's
-                      ///< borders must be filled
+  io::WriteOptions image = {};  ///< type, compression, quality, metadata
+  std::string faces = {};       ///< see with_faces
+  int border = 0;  ///< texels of safety border to write around every chart (safety_border.h); the map's
+                   ///< borders must be filled
 };
 
 /// Writes the charts in the layout. The parameterization, layout, faces and orientation go into the file's

@@ -3,6 +3,7 @@
 #include "welkin/base/export.h"
 #include "welkin/map/map.h"
 
+/// @file
 /// Safety borders: charts written with texels of what lies past their edges, for renderers that look them up
 /// as plain textures.
 namespace welkin {

@@ -6,25 +6,34 @@
 #include "welkin/base/export.h"
 #include "welkin/math/vec.h"
 
+/// @file
+/// Rotations and reflections of directions.
 namespace welkin {
 
 /// A 3×3 matrix, row by row: a rotation of directions, or a rotation with a reflection (determinant −1).
 struct Matrix3 {
+  /// rows[i][j]: row i, column j. Default: identity.
   std::array<std::array<double, 3>, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
+  /// Element by element, exactly.
   friend bool operator==(const Matrix3&, const Matrix3&) = default;
 };
 
+/// The product: b first, then a.
 WELKIN_API Matrix3 operator*(const Matrix3& a, const Matrix3& b);
+/// Of an orthonormal matrix, its inverse.
 WELKIN_API Matrix3 transpose(const Matrix3& a);
+/// 1 of a rotation, −1 of a reflection.
 WELKIN_API double determinant(const Matrix3& a);
 
 /// True when the rows are orthonormal to within 1e-4: a rotation, or a reflection.
 WELKIN_API bool is_orthonormal(const Matrix3& a);
 
-/// Nearest orthonormal matrix to one that is nearly so (Gram–Schmidt, rows in order).
+/// The orthonormal matrix of one that is nearly so, by Gram–Schmidt: the first row keeps its direction, the
+/// second the plane of the first two. Rows must be linearly independent.
 WELKIN_API Matrix3 orthonormalize(const Matrix3& a);
 
+/// m applied to a vector.
 template <class T>
 Vec3<T> operator*(const Matrix3& m, const Vec3<T>& v) {
   const auto row = [&](int i) {
@@ -35,7 +44,7 @@ Vec3<T> operator*(const Matrix3& m, const Vec3<T>& v) {
   return {row(0), row(1), row(2)};
 }
 
-/// Multiplies `count` vectors by m, in float.
+/// Replaces `count` vectors (x[i], y[i], z[i]) by m times them, in float. The arrays don't overlap.
 WELKIN_API void multiply(const Matrix3& m, float* x, float* y, float* z, std::size_t count);
 
 /// The rotation that turns the world by `yaw` about +Y, after `pitch` about +X, after `roll` about +Z;

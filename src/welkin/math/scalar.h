@@ -4,6 +4,7 @@
 #include <concepts>
 #include <numbers>
 
+/// @file
 /// Functions that double, float and SIMD packs share, so that a formula is written once.
 ///
 /// Generic code calls these unqualified: for double and float they are found here, for an xsimd pack by
@@ -11,6 +12,7 @@
 /// of bools) and `select(mask, a, b)` chooses.
 namespace welkin {
 
+/// double or float.
 template <class T>
 concept Scalar = std::floating_point<T>;
 
@@ -18,6 +20,8 @@ concept Scalar = std::floating_point<T>;
 template <class T>
 using Mask = decltype(T() < T());
 
+/// As the standard library's function of that name, angles in radians; `select(mask, a, b)` is mask ? a : b.
+/// @{
 template <Scalar T>
 constexpr T select(bool mask, T a, T b) {
   return mask ? a : b;
@@ -82,7 +86,9 @@ template <Scalar T>
 T log(T a) {
   return std::log(a);
 }
+/// @}
 
+/// π.
 inline constexpr double kPi = std::numbers::pi;
 
 /// A constant of type T from a double: `constant<T>(0.5)` works for packs, whose constructors take their own
@@ -102,6 +108,7 @@ T sign_of(T a) {
   return copysign(constant<T>(1.0), a);
 }
 
+/// `a` limited to low…high, low ≤ high.
 template <class T>
 T clamp(T a, T low, T high) {
   return min(max(a, low), high);

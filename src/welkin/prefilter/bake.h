@@ -8,28 +8,33 @@
 #include "welkin/map/chain.h"
 #include "welkin/prefilter/prefilter.h"
 
+/// @file
 /// From a map to the chain that a renderer loads: which levels there are, how large, filtered with what, and
 /// what is noted of them.
 namespace welkin {
 
+/// What is baked.
 struct BakeOptions {
+  /// What the levels are filtered with; of a chain, its roughness is each level's.
   lobe::AnyLobe lobe = lobe::AnyLobe::make("ggx");
   /// true: a chain over the lobe's roughness, where it has one. false: one level, filtered with the lobe as
   /// it is.
   bool chain = true;
   /// Which roughness each level of a chain has.
   lobe::RoughnessCurve curve = lobe::RoughnessCurve::from_name("linear");
+  /// Of the results.
   sphere::AnyParameterization target = sphere::AnyParameterization::make("cube");
   /// Charts of level 0. Default: faces of 256 texels, of 64 for one wide lobe; about as many texels in other
   /// parameterizations; 40×20 for lambert in a latlong (Greene 1986).
-  std::optional<ChartSize> size;
+  std::optional<ChartSize> size = {};
   /// Levels of a chain. 0: as many as the curve lists, or as the size has down to one texel.
   int levels = 0;
   /// Level 0 is the source resampled, whatever the curve says.
   bool mirror_level0 = false;
   /// Filter a channel A of R G B A too; otherwise it is left out, being no light.
   bool keep_alpha = false;
-  PrefilterOptions prefilter;
+  /// Tolerance, orientation and borders of the results.
+  PrefilterOptions prefilter = {};
 };
 
 /// Charts of level 0: BakeOptions::size, or its default.
@@ -50,8 +55,8 @@ WELKIN_API ChainNotes bake_notes(const BakeOptions& options);
 /// many threads.
 class WELKIN_API BakePlan {
  public:
-  /// For sources of this shape; its channels are those that are filtered. Throws as bake_levels and
-  /// PrefilterPlan do.
+  /// For sources of this shape; its channels are those that are filtered: 3 of R G B A, unless alpha is kept.
+  /// Throws as bake_levels and PrefilterPlan do.
   BakePlan(const PrefilterShape& source, const BakeOptions& options = {});
   /// For maps like this one.
   BakePlan(const Map& source, const BakeOptions& options = {});
@@ -60,7 +65,9 @@ class WELKIN_API BakePlan {
   /// say otherwise. Throws as PrefilterPlan::run does.
   Chain run(const Map& source, const Monitor& monitor = {}) const;
 
+  /// Size and lobe of each level; valid as long as the plan.
   const std::vector<PrefilterLevel>& levels() const { return levels_; }
+  /// How each level is computed; valid as long as the plan.
   const std::vector<PrefilterMethod>& methods() const { return plan_.methods(); }
 
  private:
@@ -70,7 +77,7 @@ class WELKIN_API BakePlan {
   PrefilterPlan plan_;
 };
 
-/// Plans and runs once.
+/// Plans and runs once. Throws as BakePlan does.
 WELKIN_API Chain bake(const Map& source, const BakeOptions& options = {}, const Monitor& monitor = {});
 
 }  // namespace welkin

@@ -10,6 +10,7 @@
 #include "welkin/lobe/lobe.h"
 #include "welkin/map/map.h"
 
+/// @file
 /// Pre-filtering: a map averaged with a lobe about every direction, so that lighting a material is one
 /// look-up.
 ///
@@ -20,48 +21,50 @@ namespace welkin {
 
 /// One result: a size and what its texels hold.
 struct PrefilterLevel {
-  ChartSize size;
-  lobe::AnyLobe lobe;
+  ChartSize size;      ///< of each chart
+  lobe::AnyLobe lobe;  ///< what it is filtered with
 };
 
-/// The pictures that a plan is made for.
+/// The maps that a plan is made for.
 struct PrefilterShape {
-  sphere::AnyParameterization parameterization;
-  ChartSize size;
-  int channels = 3;
+  sphere::AnyParameterization parameterization;  ///< of the source
+  ChartSize size;                                ///< of each chart
+  int channels = 3;                              ///< all are filtered
 };
 
 /// What a level's values are.
 enum class LobeScale {
   average,   ///< ∫ w L dω / ∫ w dω: a constant map stays as it is. What engines expect.
-  integral,  ///< ∫ w L dω: of `lambert` the irradiance, of `phong` the sum of Heidrich & Seidel 1999
+  integral,  ///< ∫ w L dω: of `lambert` the irradiance, of `phong` the sum of Heidrich & Seidel 1999. A
+             ///< mirror's level is radiance and a channel A an average all the same.
 };
 
+/// How levels are made.
 struct PrefilterOptions {
   /// Aim for the relative RMS error of every level, 1e-6 … 0.1. What is reached is measured, not guaranteed
   /// (docs/prefiltering.md).
   double tolerance = 1e-3;
   /// Of the results: Map::orientation.
   Matrix3 orientation = {};
-  LobeScale scale = LobeScale::average;
-  /// How a mirror's level is read. `automatic`: bilinear where the source is about as fine as the level;
-  /// where it is finer, averaged over the level's texels, or over boxes of its own about as large and then
-  /// bilinear.
+  LobeScale scale = LobeScale::average;  ///< what values are
+  /// How a mirror's level is read. `automatic`: bilinearly where the source is about as fine as the level;
+  /// where it is finer, averaged over the level's texels, or box-filtered to about the level's resolution and
+  /// then read bilinearly.
   Filter mirror_filter = Filter::automatic;
   bool borders = true;  ///< false: leave the results' borders (fill_borders) to the caller
 };
 
 /// How a level is computed.
 struct PrefilterMethod {
-  std::string name;  ///< `resample`, `harmonics`
+  std::string name;  ///< `resample`, `harmonics`, `near and far` (docs/prefiltering.md)
   int degree = 0;    ///< of the harmonics
-  ChartSize grid;    ///< where they are summed up, before the spline
+  ChartSize grid;    ///< of directions at which they are synthesised, to be interpolated by a spline
   /// What the level is filtered with: the level's lobe, or where that is narrower than texels, a table of it
-  /// blurred by a Gaussian of this σ in radians (widen.h). The reference for the level is brute force with
-  /// this one.
+  /// convolved with a Gaussian (docs/prefiltering.md). The reference for the level is brute force with this
+  /// one.
   lobe::AnyLobe lobe;
-  double widened = 0;
-  bool reduced = false;  ///< resampled from the source averaged over boxes of its texels
+  double widened = 0;    ///< standard deviation of that Gaussian, radians; 0 where there is none
+  bool reduced = false;  ///< a mirror's level, read from the box-filtered source
 };
 
 /// Everything that depends on sizes and lobes alone, kept for any number of maps: sequences and probe grids
@@ -79,6 +82,7 @@ class WELKIN_API PrefilterPlan {
   /// the source isn't. The same numbers whatever the number of threads.
   std::vector<Map> run(const Map& source, const Monitor& monitor = {}) const;
 
+  /// How each level is computed; valid as long as the plan or a copy of it.
   const std::vector<PrefilterMethod>& methods() const;
 
   struct Tables;
@@ -87,7 +91,7 @@ class WELKIN_API PrefilterPlan {
   std::shared_ptr<const Tables> tables_;
 };
 
-/// Plans and runs once.
+/// Plans and runs once. Throws as PrefilterPlan does.
 WELKIN_API std::vector<Map> prefilter_map(const Map& source, const sphere::AnyParameterization& target,
                                           std::vector<PrefilterLevel> levels,
                                           const PrefilterOptions& options = {}, const Monitor& monitor = {});

@@ -7,6 +7,8 @@
 #include "welkin/lobe/roughness_curve.h"
 #include "welkin/prefilter/prefilter.h"
 
+/// @file
+/// The levels of a chain over roughness.
 namespace welkin {
 
 /// The levels of a chain: `count` of them from `finest` down (chain_size), level k for the lobe at the

@@ -6,13 +6,15 @@
 #include "welkin/base/monitor.h"
 #include "welkin/map/map.h"
 
+/// @file
+/// Values that pre-filtering refuses.
 namespace welkin {
 
-/// Values of a map's valid texels that pre-filtering refuses, or that are odd.
+/// Values of a map's valid texels that pre-filtering refuses, or that are suspicious.
 struct SourceFaults {
   std::uint64_t not_finite = 0;  ///< texels with a value that is NaN or infinite
   std::uint64_t excessive = 0;   ///< texels with a value of over kMaxRadiance, either sign; besides those
-  std::uint64_t negative = 0;    ///< texels with a value below 0; besides those
+  std::uint64_t negative = 0;    ///< texels with a value below 0, which are filtered; besides those
 };
 
 /// The largest magnitude that PrefilterPlan::run takes.

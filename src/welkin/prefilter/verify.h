@@ -8,27 +8,30 @@
 #include "welkin/base/export.h"
 #include "welkin/prefilter/prefilter.h"
 
+/// @file
 /// Measures pre-filtered levels against brute force.
 namespace welkin {
 
+/// Which texels are compared.
 struct VerifyOptions {
   /// How the levels were made.
-  PrefilterOptions prefilter;
-  /// Texels of every level that chance picks, each as likely, none twice; all where a level has no more.
+  PrefilterOptions prefilter = {};
+  /// Texels of every level, drawn uniformly without replacement; all where a level has no more.
   int random_texels = 64;
-  /// Texels of every level of at least `hot` of its highest luminance; evenly spread over the order of
-  /// luminance where there are more than `most_hot`. Besides them, the texels in the direction of the
-  /// source's brightest lights.
+  /// At most `most_hot` texels of every level, of at least `hot` of its highest luminance; evenly spread over
+  /// the order of luminance where there are more. Besides them, the texels in the direction of the source's
+  /// brightest lights.
   int most_hot = 64;
-  double hot = 0.5;
-  std::uint64_t seed = 1;
-  Monitor monitor = {};
+  double hot = 0.5;        ///< share of the highest luminance, 0 … 1
+  std::uint64_t seed = 1;  ///< of the random choice
+  Monitor monitor = {};    ///< progress and cancelling
 };
 
-/// Texels of a level against PrefilterReference. All numbers are over the channels together, but for A where
-/// there are others.
+/// Texels of a level against brute force in float64. All numbers are over the channels together, but for A
+/// where there are others.
 struct ReferenceErrors {
-  int random_texels = 0, hot_texels = 0;  ///< compared
+  int random_texels = 0;  ///< compared
+  int hot_texels = 0;     ///< compared
   /// √(Σ Ω |error|²) / √(Σ Ω |reference|²) over the random texels, Ω their solid angles. 0 where both are 0.
   double relative_rmse = 0;
   /// Largest |error| / |reference| of all texels, where the reference counts as no smaller than 1e-6 of the
@@ -37,13 +40,14 @@ struct ReferenceErrors {
   Vec3d maximum_direction{0, 0, 1};  ///< in the world
 };
 
+/// What is found of a level.
 struct LevelVerification {
   /// None of a mirror's level, which is the source at other positions, not a sum with a lobe.
   std::optional<ReferenceErrors> reference;
   /// ∫ level dω / ∫ source dω, of the channel where it is farthest from 1; as 1 + difference / ∫ |source| dω,
   /// which is the same where nothing is negative, and 1 where there is no light. A level has too few texels
-  /// for a quadrature, so its function is computed again, by the same methods, where one is exact (see
-  /// verify_energy.h); a mirror's own texels are summed up. None where no quadrature is good enough.
+  /// for a quadrature, so it is computed again, by the same methods, at the nodes of an exact quadrature; a
+  /// mirror's own texels are summed up. None where no quadrature is good enough.
   std::optional<double> energy;
   /// Largest |value − 1| of all texels of the same level made of a source that is 1 everywhere. Of a source
   /// that shows a part of the sphere: |value − reference| at the texels compared; none of its mirror.

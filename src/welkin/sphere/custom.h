@@ -6,11 +6,13 @@
 #include "welkin/base/export.h"
 #include "welkin/sphere/registry.h"
 
+/// @file
 /// Parameterizations of one's own: a struct that meets the concept of parameterization.h becomes an
 /// AnyParameterization, and everything works on it: convert, bake, measure, plot, read and write. Its float
 /// functions are compiled where this is used, for whatever instruction set that is compiled for.
 namespace welkin::sphere {
 
+/// @cond INTERNAL
 /// What AnyParameterization forwards to. Implemented by ModelOf.
 class WELKIN_API AnyParameterization::Model {
  public:
@@ -145,17 +147,28 @@ class ModelOf final : public AnyParameterization::Model {
   P p_;
 };
 
+/// @endcond
+
 /// A parameterization of this struct, with the values that its parameters have now. `P` is default
-/// constructible and copied. Two of them count as equal when their specs are: kName must differ from the
-/// names of all others.
+/// constructible, copied, and never changed afterwards; its functions are called from many threads at once.
+/// Two of them count as equal when their specs are: kName must differ from the names of all others, and what
+/// distinguishes two structs must be parameters.
+///
+/// Parameters, where it has any, are shown by a member template
+/// `void visit_parameters(auto&& visit) { visit("fov", fov, 1.0, 360.0, "field of view, degrees"); }`: name,
+/// member (a double), least, largest, description. A member `update()`, where there is one, is called after
+/// they were set.
+///
+/// The laws of parameterization.h are not checked: positions, density or coverage that contradict each other
+/// make results wrong, in silence.
 template <Parameterization P>
 AnyParameterization make_parameterization(P p = {}) {
   return AnyParameterization::from_model(std::make_shared<ModelOf<P>>(std::move(p)));
 }
 
 /// Makes AnyParameterization::make, and with it files and options, know the struct by its name. Safe from
-/// many threads. Throws Error (bad_request) when the name is taken, or has characters other than a–z, 0–9 and
-/// hyphens.
+/// many threads. There is no way to unregister: once in a program. Throws Error (bad_request) when the name
+/// is taken, or has characters other than a–z, 0–9 and hyphens.
 template <Parameterization P>
 AnyParameterization register_parameterization() {
   AnyParameterization made = make_parameterization<P>();

@@ -5,13 +5,17 @@
 #include "welkin/math/vec.h"
 #include "welkin/sphere/traits.h"
 
+/// @file
+/// What a parameterization provides.
+
 namespace welkin::sphere {
 
-/// A place in a map: chart (face) number, and u right, v down in that chart; its square is [0,1]². The chart
-/// is a number of type T so that a SIMD pack can hold a different one in every lane.
+/// A position in a map: a chart and a point of its square [0,1]².
 template <class T>
 struct ChartPoint {
-  T chart, u, v;
+  T chart;  ///< the chart's number, of type T so that a SIMD pack can hold a different one in every lane
+  T u;      ///< to the right
+  T v;      ///< down
 };
 
 // clang-format off
@@ -29,13 +33,13 @@ struct ChartPoint {
 ///       // (docs/decisions/0004-borders.md). `chart` is a plain number: one chart per call.
 ///       template <class T> Vec3<T> to_sphere(int chart, T u, T v) const;
 ///
-///       // The chart and place of a direction of any length > 0 (unless it says otherwise).
+///       // The chart and position of a direction of any length > 0 (unless it says otherwise).
 ///       template <class T> ChartPoint<T> from_sphere(const Vec3<T>& d) const;
 ///
 ///       // Solid angle per unit of (u, v) area, sr. Inside the chart.
 ///       template <class T> T solid_angle_density(int chart, T u, T v) const;
 ///
-///       // Whether (u, v) is a place of the map: false in the corners of a disc.
+///       // Whether (u, v) is a position of the map: false in the corners of a disc.
 ///       template <class T> Mask<T> valid(int chart, T u, T v) const;
 ///
 ///       // Whether the map shows this direction: false behind a hemisphere. from_sphere is finite all the same.
@@ -73,14 +77,17 @@ constexpr Traits traits_of() {
 
 /// For a parameterization whose charts are full and cover the whole sphere: inherit these.
 struct WholeWorld {
+  /// True everywhere.
   template <class T>
   Mask<T> valid(int, T u, T) const {
     return u == u;
   }
+  /// True for every direction.
   template <class T>
   Mask<T> covers(const Vec3<T>& d) const {
     return d.x == d.x;
   }
+  /// 4π sr.
   double coverage() const { return 4 * kPi; }
 };
 

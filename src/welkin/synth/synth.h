@@ -10,8 +10,9 @@
 #include "welkin/base/export.h"
 #include "welkin/math/vec.h"
 
-/// The built-in maps, as functions of direction. Rendering one into a picture, with antialiasing, is the map
-/// room's work: these have hard edges, and detail as fine as a sun.
+/// @file
+/// The built-in maps, as functions of direction, with hard edges, and detail as fine as a sun. `render`
+/// (render_synth.h) makes antialiased maps of them.
 namespace welkin::synth {
 
 /// Linear sRGB radiance along a unit direction, finite and never negative. May be called from many threads at
@@ -33,9 +34,9 @@ struct SynthOptions {
   /// sun: radiance of the disc (0: 100,000). lamps: their median radiance (0: 50). Others: a factor on all of
   /// the map (0: 1).
   double intensity = 0;
-  /// sun, sky: the sun's height, −90…90 for sun and 0…90 for sky.
+  /// sun, sky: the sun's elevation, −90…90 for sun and 0…90 for sky.
   double elevation = 40;
-  /// sun, sky: where the sun stands.
+  /// sun, sky: the sun's azimuth.
   double azimuth = 35;
   /// sun, lamps: radiance of the sky around them; may be 0.
   double background = 0.1;
@@ -48,11 +49,11 @@ struct SynthOptions {
 /// Names of the built-in maps, in the order they are best shown.
 WELKIN_API std::vector<std::string> names();
 
-/// One line about a map. Throws Error for a name that names() lacks.
+/// One line about a map. Throws Error (bad_request) for a name that names() lacks.
 WELKIN_API std::string description(std::string_view name);
 
-/// The map of that name. Throws Error for a name that names() lacks, and for an option that the map reads and
-/// that is out of its range; the message names the map and the option.
+/// The map of that name. Throws Error (bad_request) for a name that names() lacks, and for an option that the
+/// map reads and that is out of its range; the message names the map and the option.
 WELKIN_API Radiance make(std::string_view name, const SynthOptions& options = {});
 
 }  // namespace welkin::synth
