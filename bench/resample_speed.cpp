@@ -79,13 +79,13 @@ void gather(const Map& source, const Places& places, Map& target) {
 
 /// Source texels between where the float kernels find a texel and where float64 does.
 struct PlaceError {
-  double rms = 0, highest = 0;
+  double rms = 0, maximum = 0;
 };
 
 PlaceError place_error(const Map& source, const Map& target, const Places& places) {
   const auto &t = target.parameterization, &s = source.parameterization;
   const int tiles = static_cast<int>(places.u.size() / kTileTexels);
-  std::vector<double> sums(static_cast<std::size_t>(tiles)), highest(sums.size());
+  std::vector<double> sums(static_cast<std::size_t>(tiles)), maximum(sums.size());
   parallel_for(tiles, [&](int tile) {
     const auto [face, x0, y0] = Places::corner(target, tile);
     for (std::size_t i = 0; i < kTileTexels; ++i) {
@@ -98,20 +98,20 @@ PlaceError place_error(const Map& source, const Map& target, const Places& place
       const double dv = std::fabs(static_cast<double>(places.v[at]) - exact.v);
       const double error = std::hypot(du * source.width(), dv * source.height());
       sums[static_cast<std::size_t>(tile)] += error * error;
-      highest[static_cast<std::size_t>(tile)] = std::max(highest[static_cast<std::size_t>(tile)], error);
+      maximum[static_cast<std::size_t>(tile)] = std::max(maximum[static_cast<std::size_t>(tile)], error);
     }
   });
   double sum = 0;
   for (const double each : sums) sum += each;
   return {std::sqrt(sum / static_cast<double>(places.u.size())),
-          *std::max_element(highest.begin(), highest.end())};
+          *std::max_element(maximum.begin(), maximum.end())};
 }
 
 using Row = std::vector<std::string>;
 
-/// Prints the row of times, and returns the row about places. most_cpu: seconds, or 0 for a size that is not
+/// Prints the row of times, and returns the row about places. max_cpu: seconds, or 0 for a size that is not
 /// judged by itself.
-Row run_size(int width, int face, double most_cpu, const Table& times) {
+Row run_size(int width, int face, double max_cpu, const Table& times) {
   const Map source = noise_picture(width, width / 2);
   const auto cube = sphere::AnyParameterization::make("cube");
   Map target(cube, face, face, 3), fetched(cube, face, face, 3);
@@ -127,14 +127,14 @@ Row run_size(int width, int face, double most_cpu, const Table& times) {
   const double over_floor = ratio(timings[0], timings[1]);
   const std::string work =
       std::to_string(width) + "×" + std::to_string(width / 2) + " → cube 6×" + std::to_string(face);
-  const bool judged = most_cpu > 0;
-  const bool fast = over_floor <= 1.5 && (!judged || timings[0].median().cpu <= most_cpu);
+  const bool judged = max_cpu > 0;
+  const bool fast = over_floor <= 1.5 && (!judged || timings[0].median().cpu <= max_cpu);
   times.row({work, cpu_cell(timings[0]), wall_cell(timings[0]), cpu_cell(timings[1]), wall_cell(timings[1]),
              fixed(over_floor, 2), cpu_cell(timings[2]),
-             (judged ? "≤ " + fixed(most_cpu, 2) + " s, " : std::string()) + "ratio ≤ 1.5", met(fast)});
+             (judged ? "≤ " + fixed(max_cpu, 2) + " s, " : std::string()) + "ratio ≤ 1.5", met(fast)});
   const PlaceError error = place_error(source, target, places);
-  return {work, fixed(error.rms, 5), fixed(error.highest, 5), judged ? "0.000" : "",
-          judged ? met(error.highest < 0.0005) : ""};
+  return {work, fixed(error.rms, 5), fixed(error.maximum, 5), judged ? "0.000" : "",
+          judged ? met(error.maximum < 0.0005) : ""};
 }
 
 /// CPU seconds of the floor.

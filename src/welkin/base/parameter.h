@@ -12,8 +12,8 @@ namespace welkin {
 struct Parameter {
   std::string name;
   double value = 0;
-  double lowest = 0;
-  double highest = 0;
+  double minimum = 0;
+  double maximum = 0;
   std::string description;
 };
 

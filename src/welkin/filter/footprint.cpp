@@ -10,7 +10,7 @@ namespace {
 /// keep the mean within −55 dB of exact area sampling (bench/filter_quality); four would cost 10 dB and save
 /// a tenth of the time.
 constexpr double kTexelsAcross = 8;
-constexpr int kMostTexels = 4096;  ///< of that level, under one footprint
+constexpr int kMaxTexels = 4096;  ///< of that level, under one footprint
 
 /// Samples for each texel of that level, along either axis, where a texel's area is bent or lies over an
 /// edge.
@@ -100,13 +100,13 @@ namespace {
 
 /// The lengths of a footprint's side over a tile.
 struct Range {
-  double lowest = 1e300, highest = 0;
+  double minimum = 1e300, maximum = 0;
 
   void add(double length) {
-    lowest = std::min(lowest, length);
-    highest = std::max(highest, length);
+    minimum = std::min(minimum, length);
+    maximum = std::max(maximum, length);
   }
-  bool varies() const { return highest > 1 && highest > 1.5 * lowest; }
+  bool varies() const { return maximum > 1 && maximum > 1.5 * minimum; }
 };
 
 struct Planner {
@@ -155,8 +155,8 @@ struct Planner {
     FootprintTile tile{chart, x, y, width, height, 1, 1, 0, false, {}, {}};
     for (int i = 0; i < 4; ++i) {
       // In a texel at a pole the corners are no guide to what lies between them.
-      tile.texels_right[i] = static_cast<float>(right.varies() ? right.highest : corners[i].right_length());
-      tile.texels_down[i] = static_cast<float>(down.varies() ? down.highest : corners[i].down_length());
+      tile.texels_right[i] = static_cast<float>(right.varies() ? right.maximum : corners[i].right_length());
+      tile.texels_down[i] = static_cast<float>(down.varies() ? down.maximum : corners[i].down_length());
     }
     const auto averaged = [&](double texels) {
       const double part = static_cast<double>(spread(static_cast<float>(texels)));
@@ -165,7 +165,7 @@ struct Planner {
     const int max_levels = 20;
     tile.level =
         static_cast<int>(clamp(std::floor(std::log2(narrowest / kTexelsAcross + 1e-300)), 0.0, 20.0));
-    while (tile.level < max_levels && averaged(right.highest) * averaged(down.highest) > kMostTexels)
+    while (tile.level < max_levels && averaged(right.maximum) * averaged(down.maximum) > kMaxTexels)
       ++tile.level;
     const float fewest = std::min(*std::min_element(tile.texels_right, tile.texels_right + 4),
                                   *std::min_element(tile.texels_down, tile.texels_down + 4));
@@ -174,8 +174,8 @@ struct Planner {
       const double density = spread(static_cast<float>(texels)) < 1 ? 1 : kSamplesPerTexel;
       return std::max(1, static_cast<int>(std::ceil(density * averaged(texels))));
     };
-    tile.samples_right = samples(right.highest);
-    tile.samples_down = samples(down.highest);
+    tile.samples_right = samples(right.maximum);
+    tile.samples_down = samples(down.maximum);
     tiles.push_back(tile);
   }
 };

@@ -129,7 +129,7 @@ class AreaResampler {
   /// not linear over it, or it leaves the chart's border.
   static bool parallelogram(const LevelView& level, const Grid& corners, std::size_t corner, std::size_t row,
                             const Grid& centres, std::size_t centre, Parallelogram& out) {
-    constexpr float kMostBend = 0.25f, kMostUnevenness = 0.005f;
+    constexpr float kMaxBend = 0.25f, kMaxUnevenness = 0.005f;
     const std::size_t at[4] = {corner, corner + 1, corner + row, corner + row + 1};
     const float chart = centres.chart[centre];
     float x[4], y[4];
@@ -144,7 +144,7 @@ class AreaResampler {
     const auto middle = [](const float* p) { return 0.25f * (p[0] + p[1] + p[2] + p[3]); };
     const auto twist = [](const float* p) { return 0.25f * (p[0] + p[3] - p[1] - p[2]); };
     for (const float bend : {middle(x) - out.x, middle(y) - out.y, twist(x), twist(y)}) {
-      if (!(std::fabs(bend) < kMostBend)) return false;
+      if (!(std::fabs(bend) < kMaxBend)) return false;
     }
     const float right[2] = {0.5f * (x[1] + x[3] - x[0] - x[2]), 0.5f * (y[1] + y[3] - y[0] - y[2])};
     const float down[2] = {0.5f * (x[2] + x[3] - x[0] - x[1]), 0.5f * (y[2] + y[3] - y[0] - y[1])};
@@ -163,7 +163,7 @@ class AreaResampler {
     out.down[1] = right[0] / determinant;
     const float w[4] = {corners.weight[at[0]], corners.weight[at[1]], corners.weight[at[2]],
                         corners.weight[at[3]]};
-    if (!(std::fabs(middle(w) - centres.weight[centre]) < kMostUnevenness * centres.weight[centre]))
+    if (!(std::fabs(middle(w) - centres.weight[centre]) < kMaxUnevenness * centres.weight[centre]))
       return false;
     const float scale = 0.5f / centres.weight[centre];
     out.gradient[0] = (w[1] + w[3] - w[0] - w[2]) * scale;

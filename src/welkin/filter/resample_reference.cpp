@@ -75,18 +75,18 @@ Weights weights_at(Filter filter, double place, int size) {
 double limit_overshoot(const ImageView<const float>& chart, const Weights& across, const Weights& down,
                        int channel, double value) {
   const int margin = (across.count - 4) / 2;
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  double minimum = HUGE_VAL, maximum = -HUGE_VAL;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {
       const double texel =
           static_cast<double>(chart.at(across.first + margin + i, down.first + margin + j)[channel]);
-      lowest = std::min(lowest, texel);
-      highest = std::max(highest, texel);
+      minimum = std::min(minimum, texel);
+      maximum = std::max(maximum, texel);
     }
   }
-  const double beyond = 0.5 * (highest - lowest);
-  const double floor = std::max(lowest - beyond, std::min(lowest, 0.5 * lowest));
-  return clamp(value, floor, highest + beyond);
+  const double beyond = 0.5 * (maximum - minimum);
+  const double floor = std::max(minimum - beyond, std::min(minimum, 0.5 * minimum));
+  return clamp(value, floor, maximum + beyond);
 }
 
 class Reference {

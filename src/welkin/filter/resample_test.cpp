@@ -79,8 +79,8 @@ TEST(ResampleTest, OrientationsAndRotationCompose) {
 }
 
 /// The smallest value around one texel of a million in a dark map, on each face's middle, edge and corner.
-double lowest_beside_a_light(Filter filter, bool allow_ringing, double dark) {
-  double lowest = HUGE_VAL;
+double minimum_beside_a_light(Filter filter, bool allow_ringing, double dark) {
+  double minimum = HUGE_VAL;
   for (const auto& [x, y] : {std::pair{8, 8}, {0, 7}, {15, 15}}) {
     Map source = rendered("cube", 16, [dark](const Vec3d&) { return dark; });
     *source.level.chart(2).at(x, y) = 1e6f;
@@ -92,20 +92,20 @@ double lowest_beside_a_light(Filter filter, bool allow_ringing, double dark) {
       options.rotation = rotation_from_yaw_pitch_roll(3, 4, 5);
       resample(source, target, options);
       for_each_place(target, [&](int chart, int i, int j) {
-        lowest = std::min(lowest, static_cast<double>(*target.level.chart(chart).at(i, j)));
+        minimum = std::min(minimum, static_cast<double>(*target.level.chart(chart).at(i, j)));
       });
     }
   }
-  return lowest;
+  return minimum;
 }
 
 TEST(ResampleTest, LightNeverBecomesNegativeUnlessRingingIsAllowed) {
   for (const Filter filter : kFilters) {
-    EXPECT_GE(lowest_beside_a_light(filter, false, 0), 0) << name_of(filter);
-    EXPECT_GE(lowest_beside_a_light(filter, false, 0.25), 0.125 - 1e-6) << name_of(filter);
+    EXPECT_GE(minimum_beside_a_light(filter, false, 0), 0) << name_of(filter);
+    EXPECT_GE(minimum_beside_a_light(filter, false, 0.25), 0.125 - 1e-6) << name_of(filter);
   }
   for (const Filter filter : {Filter::automatic, Filter::bicubic, Filter::lanczos}) {
-    EXPECT_LT(lowest_beside_a_light(filter, true, 0), -1e4) << name_of(filter);
+    EXPECT_LT(minimum_beside_a_light(filter, true, 0), -1e4) << name_of(filter);
   }
 }
 

@@ -188,8 +188,8 @@ std::vector<ChartSize> level_charts(const io::FileInfo& file, const ReadMapOptio
   };
   std::vector<ChartSize> charts{finest};
   if (info.border > 0) return charts;
-  constexpr int kMostLevels = 21;  // of a side of 2^20 texels
-  for (int level = 1; level < std::min(file.levels, kMostLevels); ++level) {
+  constexpr int kMaxLevels = 21;  // of a side of 2^20 texels
+  for (int level = 1; level < std::min(file.levels, kMaxLevels); ++level) {
     const std::vector<std::size_t> pictures = pictures_of(file, level);
     if (pictures.size() < first + needed) break;
     const io::PartInfo& part = file.parts[pictures[first]];

@@ -284,9 +284,9 @@ class Comparer {
       for (int x = 0; x < mean.width(); ++x) {
         const float* from = mean.level.chart(0).at(x, y);
         const double value = static_cast<double>(from[0] / from[1]);
-        const double decades = std::log10(std::max(value, kHeatLowest) / kHeatLowest);
+        const double decades = std::log10(std::max(value, kHeatMinimum) / kHeatMinimum);
         const auto color =
-            from[1] > 0.5f ? color_ramp(decades / std::log10(kHeatHighest / kHeatLowest)) : neutral_color();
+            from[1] > 0.5f ? color_ramp(decades / std::log10(kHeatMaximum / kHeatMinimum)) : neutral_color();
         std::copy(color.begin(), color.end(), heat.level.chart(0).at(x, y));
       }
     }

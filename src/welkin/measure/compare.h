@@ -60,12 +60,12 @@ struct Comparison {
 ///
 /// `heat`, if given, becomes a lat-long map (RGB, linear sRGB, no orientation) of the relative error: root
 /// mean square over the channels of b − a by that of a, with the floor of maximum_relative, averaged over
-/// each new texel. color_ramp over its logarithm from kHeatLowest to kHeatHighest; neutral_color where
+/// each new texel. color_ramp over its logarithm from kHeatMinimum to kHeatMaximum; neutral_color where
 /// nothing was compared.
 ///
 /// Throws Error when the maps have no channels in common or options are out of range, and Cancelled.
 Comparison compare(const Map& a, const Map& b, const CompareOptions& options = {}, Map* heat = nullptr);
-inline constexpr double kHeatLowest = 1e-5;
-inline constexpr double kHeatHighest = 1;
+inline constexpr double kHeatMinimum = 1e-5;
+inline constexpr double kHeatMaximum = 1;
 
 }  // namespace welkin

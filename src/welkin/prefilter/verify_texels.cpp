@@ -69,17 +69,17 @@ std::vector<Texel> hot_texels(const Map& level, const std::vector<Vec3d>& lights
                               const VerifyOptions& options) {
   const TexelLuminance luminance(level.channel_names);
   const std::int64_t all = texels_of(level);
-  float highest = 0;
+  float maximum = 0;
   for (std::int64_t i = 0; i < all; ++i) {
-    highest = std::max(highest, luminance(values_of(level, texel_at(level, i))));
+    maximum = std::max(maximum, luminance(values_of(level, texel_at(level, i))));
   }
-  if (!(highest > 0)) return {};
+  if (!(maximum > 0)) return {};
   struct Hot {
     float luminance;
     std::int64_t index;
   };
   std::vector<Hot> hot;
-  const auto least = static_cast<float>(options.hot) * highest;
+  const auto least = static_cast<float>(options.hot) * maximum;
   for (std::int64_t i = 0; i < all; ++i) {
     const Texel texel = texel_at(level, i);
     const float value = luminance(values_of(level, texel));

@@ -11,7 +11,7 @@
 namespace welkin {
 namespace {
 
-constexpr int kMostSamples = 64;
+constexpr int kMaxSamples = 64;
 constexpr int kBatch = 256;
 
 struct Mean {
@@ -62,9 +62,9 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
 
 Map render(const synth::Radiance& radiance, const sphere::AnyParameterization& parameterization, int width,
            int height, const RenderOptions& options) {
-  if (options.samples < 1 || options.samples > kMostSamples) {
+  if (options.samples < 1 || options.samples > kMaxSamples) {
     throw Error(ErrorKind::bad_request, "samples along a texel's side must be 1 to " +
-                                            std::to_string(kMostSamples) + ", not " +
+                                            std::to_string(kMaxSamples) + ", not " +
                                             std::to_string(options.samples));
   }
   if (!is_orthonormal(options.orientation))

@@ -35,7 +35,7 @@ class HdrReader : public Reader {
   explicit HdrReader(const Source& source) : source_(source), header_(parse_hdr_header(source)) {
     const std::size_t held = source.bytes.size() - header_.pixels_at;
     const std::uint64_t least =
-        static_cast<std::uint64_t>(header_.lines()) * least_hdr_line_bytes(header_.line_length());
+        static_cast<std::uint64_t>(header_.lines()) * min_hdr_line_bytes(header_.line_length());
     if (held < least) {
       throw Error(ErrorKind::damaged, source.name,
                   "ends early (byte " + std::to_string(source.bytes.size()) +

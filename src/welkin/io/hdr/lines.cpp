@@ -90,7 +90,7 @@ std::size_t hdr_line_end(std::span<const std::byte> bytes, std::size_t at, int l
   return flat_end(bytes, at, length, coding);
 }
 
-std::uint64_t least_hdr_line_bytes(int length) {
+std::uint64_t min_hdr_line_bytes(int length) {
   // One pixel, then old runs of at most 255, 255·2^8, 255·2^16 …
   std::uint64_t bytes = 4;
   std::int64_t left = length - 1;

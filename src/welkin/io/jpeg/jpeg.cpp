@@ -93,9 +93,9 @@ class Decoder {
 
   /// Each scan of a progressive file costs a pass over the whole picture, and may hold next to no bytes.
   static void limit_scans(j_common_ptr codec) {
-    constexpr int kMostScans = 500;
+    constexpr int kMaxScans = 500;
     if (codec->is_decompressor == TRUE &&
-        reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number > kMostScans) {
+        reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number > kMaxScans) {
       ERREXIT(codec, JERR_BAD_PROGRESSION);
     }
   }

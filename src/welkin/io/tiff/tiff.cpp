@@ -73,9 +73,9 @@ class TiffReader : public Reader {
   explicit TiffReader(const Source& source) : source_(source), memory_{source.bytes} {
     tiff_ = open_tiff_stream(memory_.stream(), "r", source.options.max_bytes, failure_);
     if (tiff_ == nullptr) fail("the TIFF header is malformed");
-    constexpr std::size_t kMostPages = 65535;
+    constexpr std::size_t kMaxPages = 65535;
     do {
-      if (pages_.size() == kMostPages) fail("more than " + std::to_string(kMostPages) + " directories");
+      if (pages_.size() == kMaxPages) fail("more than " + std::to_string(kMaxPages) + " directories");
       failure_.clear();
       pages_.push_back(understand_tiff_page(tiff_.get(), source_));
     } while (TIFFLastDirectory(tiff_.get()) == 0 && next_directory());
