@@ -69,11 +69,11 @@ void float64_loop(const Map& map, std::span<const Vec3d> directions, std::span<f
     bool covered[kBatch];
     for (std::size_t i = 0; i < sphere::padded(count); ++i) {
       const Vec3d d = map.orientation * normalize(directions[from + std::min(i, count - 1)]);
-      const auto place = map.parameterization.from_sphere(d);
+      const auto position = map.parameterization.from_sphere(d);
       covered[i] = map.parameterization.covers(d);
-      chart[i] = static_cast<float>(place.chart);
-      u[i] = static_cast<float>(place.u);
-      v[i] = static_cast<float>(place.v);
+      chart[i] = static_cast<float>(position.chart);
+      u[i] = static_cast<float>(position.u);
+      v[i] = static_cast<float>(position.v);
     }
     fetch(view, chart, u, v, values.data(), count);
     for (std::size_t i = 0; i < count; ++i) {

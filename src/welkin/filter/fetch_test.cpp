@@ -82,7 +82,7 @@ TEST(FetchTest, CentresGiveTexelsAndPlanesStayPlanes) {
 TEST(FetchTest, ClampedValuesKeepToTheirBounds) {
   Map map = rendered("cube", 24, [](const Vec3d&) { return 0.0; });
   std::mt19937 random(9);
-  for_each_place(map, [&](int chart, int x, int y) {
+  for_each_valid_texel(map, [&](int chart, int x, int y) {
     *map.level.chart(chart).at(x, y) =
         random() % 5 == 0 ? 1000.0f : 0.01f * static_cast<float>(random() % 100);
   });

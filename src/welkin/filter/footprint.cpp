@@ -30,7 +30,7 @@ Vec3d widened(const Vec3d& side, const Vec3d& other) {
 
 }  // namespace
 
-float spread(float texels) {
+float averaged_fraction(float texels) {
   const float t = clamp(texels - kInterpolated, 0.0f, 1.0f);
   return t * t * (3 - 2 * t);
 }
@@ -68,13 +68,13 @@ Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_s
   const Vec3d down = to_source * step(t, chart, u, v, 0, 1.0 / target.height());
 
   const auto& s = source.parameterization;
-  const auto place = s.from_sphere(to_source * t.to_sphere(chart, u, v));
-  const int source_chart = static_cast<int>(place.chart);
+  const auto position = s.from_sphere(to_source * t.to_sphere(chart, u, v));
+  const int source_chart = static_cast<int>(position.chart);
   // Half a texel inside the chart: past an octahedron's edge the texels come back, and their difference would
   // vanish.
   const double texel_u = 1.0 / source.width(), texel_v = 1.0 / source.height();
-  const double su = clamp(place.u, 0.5 * texel_u, 1 - 0.5 * texel_u),
-               sv = clamp(place.v, 0.5 * texel_v, 1 - 0.5 * texel_v);
+  const double su = clamp(position.u, 0.5 * texel_u, 1 - 0.5 * texel_u),
+               sv = clamp(position.v, 0.5 * texel_v, 1 - 0.5 * texel_v);
   const Vec3d across = step(s, source_chart, su, sv, texel_u, 0),
               along = step(s, source_chart, su, sv, 0, texel_v);
   const Vec3d texel_right = widened(across, along), texel_down = widened(along, across);
@@ -159,7 +159,7 @@ struct Planner {
       tile.texels_down[i] = static_cast<float>(down.varies() ? down.maximum : corners[i].down_length());
     }
     const auto averaged = [&](double texels) {
-      const double part = static_cast<double>(spread(static_cast<float>(texels)));
+      const double part = static_cast<double>(averaged_fraction(static_cast<float>(texels)));
       return std::min(part * texels / std::exp2(tile.level), 1e4);
     };
     const int max_levels = 20;
@@ -169,9 +169,9 @@ struct Planner {
       ++tile.level;
     const float fewest = std::min(*std::min_element(tile.texels_right, tile.texels_right + 4),
                                   *std::min_element(tile.texels_down, tile.texels_down + 4));
-    tile.whole = spread(fewest) >= 1;
+    tile.whole = averaged_fraction(fewest) >= 1;
     const auto samples = [&](double texels) {
-      const double density = spread(static_cast<float>(texels)) < 1 ? 1 : kSamplesPerTexel;
+      const double density = averaged_fraction(static_cast<float>(texels)) < 1 ? 1 : kSamplesPerTexel;
       return std::max(1, static_cast<int>(std::ceil(density * averaged(texels))));
     };
     tile.samples_right = samples(right.maximum);

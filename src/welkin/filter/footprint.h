@@ -39,7 +39,7 @@ struct FootprintTile {
 
 /// Part of the texel over which samples are spread, when it crosses so many source texels: 0 for a look-up at
 /// the centre, 1 for the whole texel.
-float spread(float texels);
+float averaged_fraction(float texels);
 
 /// Tiles of a whole target chart row band: covers `rows` rows from `first_row` of `chart`. Tiles are split
 /// until the footprint hardly changes within one.

@@ -209,7 +209,7 @@ class AreaResampler {
     return texels;
   }
 
-  /// Places of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that is
+  /// Positions of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that is
   /// averaged.
   void spread_samples(const FootprintTile& tile, int x, int y, int from, int count, Batch& batch,
                       std::size_t to) const {
@@ -222,8 +222,8 @@ class AreaResampler {
     };
     const float across = 1.0f / static_cast<float>(job_.target.width()),
                 down = 1.0f / static_cast<float>(job_.target.height());
-    const float step_x = spread(mix(tile.texels_right)) / static_cast<float>(tile.samples_right);
-    const float step_y = spread(mix(tile.texels_down)) / static_cast<float>(tile.samples_down);
+    const float step_x = averaged_fraction(mix(tile.texels_right)) / static_cast<float>(tile.samples_right);
+    const float step_y = averaged_fraction(mix(tile.texels_down)) / static_cast<float>(tile.samples_down);
     const float centre_x = static_cast<float>(tile.x + x) + 0.5f,
                 centre_y = static_cast<float>(tile.y + y) + 0.5f;
     const float middle_x = 0.5f * static_cast<float>(tile.samples_right - 1);

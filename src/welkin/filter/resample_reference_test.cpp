@@ -32,8 +32,8 @@ int count_different(const Map& a, const Map& b, double tolerance) {
   return count;
 }
 
-/// Places are float: within 1e-6 of a chart, so where texels are a hundredth of the waves the values agree to
-/// 2e-4. Two places may come down on different sides of a texel's edge (nearest) or of a rim.
+/// Positions are float: within 1e-6 of a chart, so where texels are a hundredth of the waves the values agree to
+/// 2e-4. Two positions may come down on different sides of a texel's edge (nearest) or of a rim.
 TEST_P(ResampleReferenceTest, PointFiltersAgreeFromEverywhereAndToEverywhere) {
   const Map source = rendered(GetParam(), 48, waves(12, 6));
   for (const std::string& name : sphere::parameterization_names()) {
@@ -83,7 +83,7 @@ struct AreaCase {
 /// Makes texels alike that cross less than 2¼ source texels one way: there resample() interpolates on
 /// purpose.
 void keep_minified(const Map& source, const ResampleOptions& options, const Map& from, Map& to) {
-  for_each_place(to, [&](int chart, int x, int y) {
+  for_each_valid_texel(to, [&](int chart, int x, int y) {
     const Footprint f = footprint_at(source, to, transpose(options.rotation), chart, x + 0.5, y + 0.5);
     if (std::min(f.right_length(), f.down_length()) > 2.25) return;
     *to.level.chart(chart).at(x, y) = *from.level.chart(chart).at(x, y);

@@ -46,7 +46,7 @@ TEST(ResampleTest, RotationThereAndBackReturns) {
     options.rotation = rotation;
     resample(source, there, options);
     fill_borders(there);
-    for_each_place(there, [&](int chart, int x, int y) {
+    for_each_valid_texel(there, [&](int chart, int x, int y) {
       const double expected = smooth(transpose(rotation) * direction_at(there, chart, x, y));
       ASSERT_NEAR(*there.level.chart(chart).at(x, y), expected, 0.01) << name;
     });
@@ -71,7 +71,7 @@ TEST(ResampleTest, OrientationsAndRotationCompose) {
     ResampleOptions options = with(Filter::bicubic);
     options.rotation = rotation;
     resample(source, target, options);
-    for_each_place(target, [&](int chart, int x, int y) {
+    for_each_valid_texel(target, [&](int chart, int x, int y) {
       const Vec3d d = direction_at(target, chart, x, y);
       ASSERT_NEAR(*target.level.chart(chart).at(x, y), smooth(transpose(rotation) * d), 1e-3);
     });
@@ -91,7 +91,7 @@ double minimum_beside_a_light(Filter filter, bool allow_ringing, double dark) {
       options.allow_ringing = allow_ringing;
       options.rotation = rotation_from_yaw_pitch_roll(3, 4, 5);
       resample(source, target, options);
-      for_each_place(target, [&](int chart, int i, int j) {
+      for_each_valid_texel(target, [&](int chart, int i, int j) {
         minimum = std::min(minimum, static_cast<double>(*target.level.chart(chart).at(i, j)));
       });
     }
@@ -122,7 +122,7 @@ TEST(ResampleTest, ANaNStaysWithinTheKernelsReach) {
         Map target = make_map("octahedral", 120);
         resample(source, target, with(filter));
         int poisoned = 0;
-        for_each_place(target, [&](int chart, int x, int y) {
+        for_each_valid_texel(target, [&](int chart, int x, int y) {
           if (!std::isnan(*target.level.chart(chart).at(x, y))) return;
           ++poisoned;
           EXPECT_LT(length(direction_at(target, chart, x, y) - centre), (4 + 2 + 1) * std::sqrt(2) * texel)
@@ -196,7 +196,7 @@ TEST(ResampleTest, AnyNumberOfChannelsGivesTheSameResults) {
     for (const int channels : {2, 3, 4, 5, 7}) {
       Map many = make_map("cube", 12, channels);
       resample(rendered("latlong", 40, waves(20, 15), channels), many, with(filter));
-      for_each_place(one, [&](int chart, int x, int y) {
+      for_each_valid_texel(one, [&](int chart, int x, int y) {
         for (int c = 0; c < channels; ++c) {
           const float expected = static_cast<float>(c + 1) * *one.level.chart(chart).at(x, y);
           ASSERT_NEAR(many.level.chart(chart).at(x, y)[c], expected, 3e-6 * (c + 1))

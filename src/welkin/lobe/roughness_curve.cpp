@@ -153,11 +153,11 @@ void RoughnessCurve::check_levels(int levels) const {
 
 double RoughnessCurve::roughness(double level, int levels) const {
   check_levels(levels);
-  const double place = std::clamp(level, 0.0, levels - 1.0);
-  if (list_.empty()) return curve_named(text_)->roughness(place, levels - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double position = std::clamp(level, 0.0, levels - 1.0);
+  if (list_.empty()) return curve_named(text_)->roughness(position, levels - 1);
+  const auto below = static_cast<std::size_t>(position);
   if (below + 1 == list_.size()) return list_.back();
-  return list_[below] + (place - static_cast<double>(below)) * (list_[below + 1] - list_[below]);
+  return list_[below] + (position - static_cast<double>(below)) * (list_[below + 1] - list_[below]);
 }
 
 double RoughnessCurve::level_of(double roughness, int levels) const {

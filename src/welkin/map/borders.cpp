@@ -98,8 +98,8 @@ struct Position {
 };
 
 Position position_of(const AnyParameterization& p, const Level& level, const Vec3d& direction) {
-  const auto place = p.from_sphere(direction);
-  return {static_cast<int>(place.chart), place.u * level.width() - 0.5, place.v * level.height() - 0.5};
+  const auto position = p.from_sphere(direction);
+  return {static_cast<int>(position.chart), position.u * level.width() - 0.5, position.v * level.height() - 0.5};
 }
 
 /// Weights of Keys' cubic (a = −½) for texels −1, 0, 1, 2 of a fraction.
@@ -207,7 +207,7 @@ bool reads_chart_alone(const Level& level, const Position& position) {
 
 /// Texels without a value take the mean of their neighbours that have one, ring by ring. Texels inside a
 /// chart that are neither valid nor in `known` have none and get none.
-void spread(const AnyParameterization& p, Level& level, bool whole, const std::vector<Texel>& known,
+void fill_from_neighbours(const AnyParameterization& p, Level& level, bool whole, const std::vector<Texel>& known,
             std::vector<Texel> missing) {
   if (missing.empty()) return;
   const int channels = level.channels(), width = level.width(), height = level.height();
@@ -298,7 +298,7 @@ void fill_borders(const AnyParameterization& p, Level& level) {
     (fills[i] == Fill::unknown ? missing : known).push_back(texels[i]);
     if (fills[i] == Fill::interpolated) any_interpolated = true;
   }
-  spread(p, level, whole, known, std::move(missing));
+  fill_from_neighbours(p, level, whole, known, std::move(missing));
   if (!any_interpolated) return;
   // The first of these reads the bilinear values of the first pass beside an edge, the second what it has put
   // there.

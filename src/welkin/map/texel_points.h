@@ -30,7 +30,7 @@ struct TexelPoint {
   double solid_angle;
 };
 
-/// Gauss's rule of 2×2 points, of a cell that lies within the chart's valid places.
+/// Gauss's rule of 2×2 points, of a cell that lies within the chart's valid positions.
 void append_gauss_points(const sphere::AnyParameterization& p, const ChartCell& cell,
                          std::vector<TexelPoint>& points);
 

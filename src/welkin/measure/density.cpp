@@ -46,9 +46,9 @@ class LimitSearch {
     if (density > maximum_.density) maximum_ = {density, chart, u, v};
   }
 
-  /// The last valid place on the way from a valid place to one that isn't.
-  template <class Place>
-  static double rim(double inside, double outside, const Place& is_valid) {
+  /// The last valid position on the way from a valid position to one that isn't.
+  template <class IsValid>
+  static double rim(double inside, double outside, const IsValid& is_valid) {
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (inside + outside);
       (is_valid(middle) ? inside : outside) = middle;
@@ -57,8 +57,8 @@ class LimitSearch {
   }
 
   /// Calls body(rim) for every change between valid and not along the line t ∈ [0, 1].
-  template <class Place, class Body>
-  static void for_each_rim(const Place& is_valid, const Body& body) {
+  template <class IsValid, class Body>
+  static void for_each_rim(const IsValid& is_valid, const Body& body) {
     for (int i = 0; i < kSteps; ++i) {
       const double from = static_cast<double>(i) / kSteps, to = (i + 1.0) / kSteps;
       if (is_valid(from) != is_valid(to)) {

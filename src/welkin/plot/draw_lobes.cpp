@@ -46,11 +46,11 @@ class Frame {
   double degrees(double x) const { return (x - box_.x) / box_.width * plot_.degrees; }
   /// Of a share of the largest weight. Below the logarithmic axis' end it goes on to beneath the frame.
   double y(double share) const {
-    double place = share;
+    double position = share;
     if (plot_.axis == WeightAxis::logarithmic) {
-      place = share > 0 ? std::max(1 + std::log10(share) / kDecades, -0.1) : -0.1;
+      position = share > 0 ? std::max(1 + std::log10(share) / kDecades, -0.1) : -0.1;
     }
-    return box_.y + box_.height * (1 - place);
+    return box_.y + box_.height * (1 - position);
   }
 
  private:

@@ -71,7 +71,7 @@ TEST(BrightPoints, TakenAndLeftAreAll) {
 }
 
 /// Lamps are taken where they lie, the largest first, and nothing else changes.
-TEST(BrightPoints, TheLargestAreTakenFromTheirPlaces) {
+TEST(BrightPoints, TheLargestAreRemovedFromTheGrid) {
   for (const int always : {1, 7, 50}) {
     PointGrid grid = noise(100), before = noise(100);
     BrightRule rule;

@@ -177,7 +177,7 @@ TEST(PrefilterLaws, PositiveMapsStayPositiveAndBlackOnesBlack) {
 /// The largest difference of two levels, over the largest value.
 double difference(const Map& a, const Map& b, double factor = 1) {
   double most = 0, worst = 0;
-  cases::for_each_place(a, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(a, [&](int chart, int x, int y) {
     for (int c = 0; c < a.channels(); ++c) {
       const double p = static_cast<double>(a.level.chart(chart).at(x, y)[c]);
       const double q = factor * static_cast<double>(b.level.chart(chart).at(x, y)[c]);
@@ -190,7 +190,7 @@ double difference(const Map& a, const Map& b, double factor = 1) {
 
 template <class Body>
 void change(Map& map, const Body& body) {
-  cases::for_each_place(map, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(map, [&](int chart, int x, int y) {
     for (int c = 0; c < map.channels(); ++c) {
       float& value = map.level.chart(chart).at(x, y)[c];
       value = body(value);
@@ -254,7 +254,7 @@ TEST(PrefilterLaws, SumsOfMapsAreSumsOfLevels) {
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     if (levels_of({8, 8})[i].lobe.is_mirror()) continue;
     double squares = 0, errors = 0;
-    cases::for_each_place(of_a[i], [&](int chart, int x, int y) {
+    cases::for_each_valid_texel(of_a[i], [&](int chart, int x, int y) {
       const auto at = [&](const Map& map) { return static_cast<double>(*map.level.chart(chart).at(x, y)); };
       squares += at(of_sum[i]) * at(of_sum[i]);
       errors += std::pow(at(of_sum[i]) - at(of_a[i]) - at(of_b[i]), 2);

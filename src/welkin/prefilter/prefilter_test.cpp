@@ -86,7 +86,7 @@ TEST(Prefilter, SunsMayStandOnTheHorizon) {
   const Map level = prefiltered(source, "latlong", {64, 32}, "lambert");
   std::vector<Vec3d> directions;
   std::vector<double> values;
-  cases::for_each_place(level, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(level, [&](int chart, int x, int y) {
     const Vec3d d = cases::direction_at(level, chart, x, y);
     if (std::fabs(dot(d, sun)) > 0.02) return;
     directions.push_back(d);

@@ -231,15 +231,15 @@ TEST(VerifyTexels, ChancePicksPlacesOnceAndAllOfFew) {
   for (const char* name : {"cube", "latlong", "angular", "healpix"}) {
     for (const int size : {1, 2, 5, 40}) {
       const Map level(AnyParameterization::make(name), size, size, 1);
-      int places = 0;
+      int positions = 0;
       for (const prefilter::Texel& t : prefilter::random_texels(level, 1 << 20, 1)) {
-        places += level.parameterization.valid(t.chart, (t.x + 0.5) / size, (t.y + 0.5) / size) ? 1 : 0;
+        positions += level.parameterization.valid(t.chart, (t.x + 0.5) / size, (t.y + 0.5) / size) ? 1 : 0;
       }
       for (const int count : {1, 64, 1000}) {
         const auto texels = prefilter::random_texels(level, count, 7);
         const std::set<prefilter::Texel> set(texels.begin(), texels.end());
         EXPECT_EQ(set.size(), texels.size()) << name << size;
-        EXPECT_EQ(static_cast<int>(texels.size()), std::min(count, places)) << name << size;
+        EXPECT_EQ(static_cast<int>(texels.size()), std::min(count, positions)) << name << size;
         EXPECT_EQ(texels, prefilter::random_texels(level, count, 7));
       }
     }

@@ -87,16 +87,16 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   zonal.resize(static_cast<std::size_t>(degree) + 1);
   // The lobe's values, from its axis outward, dense where it is steep. Far out, where the series would be all
   // rounding errors, by the Gaussian's first moment: w + σ²/2 ∇²w.
-  std::vector<double> angles, near_places, degrees, values;
+  std::vector<double> angles, near_nodes, degrees, values;
   constexpr int kPoints = 1500;
   const double sigma = std::sqrt(square), core = std::max(sigma, lobe.width()), scale = 1 / lobe.integral();
   const auto weight = [&](double angle) { return scale * lobe.weight(lobe::s_of_angle(angle)); };
   for (int i = 0; i <= kPoints; ++i) {
     const double part = static_cast<double>(i) / kPoints;
     angles.push_back(std::min(kPi, core * std::sinh(part * std::asinh(kPi / core))));
-    if (angles.back() < 12 * core) near_places.push_back(lobe::s_of_angle(angles.back()));
+    if (angles.back() < 12 * core) near_nodes.push_back(lobe::s_of_angle(angles.back()));
   }
-  const std::vector<double> near_values = series(zonal, near_places);
+  const std::vector<double> near_values = series(zonal, near_nodes);
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const double angle = angles[i];
     double value = 0;

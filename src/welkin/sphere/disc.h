@@ -5,7 +5,7 @@
 
 namespace welkin::sphere {
 
-/// A place relative to the disc inscribed in a chart: right and up are ±1 at the chart's edges, radius 1 at
+/// A position relative to the disc inscribed in a chart: right and up are ±1 at the chart's edges, radius 1 at
 /// the rim.
 template <class T>
 struct DiscPoint {

@@ -136,10 +136,10 @@ bool azimuth_label(const Color& ground, const Color& ink, const Vec3d& d, Color&
 }
 
 Color paint(const Vec3d& d) {
-  const sphere::ChartPoint<double> place = sphere::cube_face_of(d);
-  const auto face = static_cast<int>(place.chart);
+  const sphere::ChartPoint<double> position = sphere::cube_face_of(d);
+  const auto face = static_cast<int>(position.chart);
   const Side& side = kSides[face];
-  const double x = -place.u, y = place.v;
+  const double x = -position.u, y = position.v;
   const double azimuth = atan2(d.x, d.z) / kDegree;
   const double elevation = atan2(d.y, sqrt(d.x * d.x + d.z * d.z)) / kDegree;
 

@@ -26,7 +26,7 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
   const auto& p = map.parameterization;
   const std::size_t size = static_cast<std::size_t>(count);
   Mean means[kBatch];
-  const auto place = [&](double right, double down) {
+  const auto set_positions = [&](double right, double down) {
     for (int i = 0; i < kBatch; ++i) {
       u[i] = static_cast<float>((x + std::min(i, count - 1) + right) / map.width());
       v[i] = static_cast<float>((y + down) / map.height());
@@ -37,7 +37,7 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
   // Add up the samples, place by place in all texels.
   for (int k = 0; k < samples * samples; ++k) {
     const int column = k % samples, row = k / samples;
-    place((column + (row + 0.5) / samples) / samples, (row + (column + 0.5) / samples) / samples);
+    set_positions((column + (row + 0.5) / samples) / samples, (row + (column + 0.5) / samples) / samples);
     p.kernels().density(p.self(), chart, u, v, density, size);
     p.kernels().to_sphere(p.self(), chart, u, v, dx, dy, dz, size);
     for (int i = 0; i < count; ++i) {
@@ -50,7 +50,7 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
     }
   }
 
-  place(0.5, 0.5);
+  set_positions(0.5, 0.5);
   float* out = map.level.chart(chart).at(x, y);
   for (int i = 0; i < count; ++i, out += 3) {
     if (!(valid[i] > 0) || !(means[i].weight > 0)) continue;

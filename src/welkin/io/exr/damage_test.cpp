@@ -162,7 +162,7 @@ TEST(ExrDamage, AFileTooShortForItsPixelsIsRefusedWhenOpened) {
   }
 }
 
-TEST(ExrDamage, ChunksOfOtherPlacesAreRefused) {
+TEST(ExrDamage, ChunksOfOtherPositionsAreRefused) {
   const Folder folder;
   auto bytes = small_file(folder, Imf::ZIP_COMPRESSION, false);
   const std::size_t table = chunk_table(bytes, 3);

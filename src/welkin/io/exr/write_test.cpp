@@ -199,7 +199,7 @@ TEST(ExrWrite, TheSameBytesEachTime) {
   }
 }
 
-TEST(ExrWrite, RefusesWhatTheFormatHasNoPlaceFor) {
+TEST(ExrWrite, RefusesWhatTheFormatCannotStore) {
   const Folder folder;
   const Image image = picture(4, 4, 2, PixelType::half);
   const std::string path = folder / "refused.exr";

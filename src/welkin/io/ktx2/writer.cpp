@@ -68,10 +68,10 @@ class Pictures {
     for (const WritePart& part : parts) {
       const auto level = static_cast<std::size_t>(part.level);
       const auto picture = static_cast<std::size_t>(part.layer) * faces + static_cast<std::size_t>(part.face);
-      const WritePart*& place = parts_[level * of_level_ + picture];
-      if (place != nullptr)
+      const WritePart*& slot = parts_[level * of_level_ + picture];
+      if (slot != nullptr)
         throw Error(ErrorKind::bad_request, "two pictures for " + name(header, level, picture));
-      place = &part;
+      slot = &part;
     }
     const auto missing = std::find(parts_.begin(), parts_.end(), nullptr);
     if (missing == parts_.end()) return;
