@@ -66,7 +66,8 @@ Sums measure_texel(const Map& source, const Map& target, int face, int x, int y)
     const Color value = interpolate(source, position.u, position.v);
     for (std::size_t c = 0; c < 3; ++c) sum[c] += density * value[c];
     weight += density;
-    const double radius = std::hypot((position.u - 0.5) * source.width(), (position.v - 0.5) * source.height());
+    const double radius =
+        std::hypot((position.u - 0.5) * source.width(), (position.v - 0.5) * source.height());
     fine = fine && radius > source.width() / 8.0;
   }
   Sums sums;

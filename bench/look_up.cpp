@@ -1,5 +1,4 @@
-// What a look-up along one direction costs, alone and among many, beside the loop that Sampler took the place
-// of.
+// What a look-up along one direction costs, alone and among many, beside the loop that Sampler replaced.
 
 #include <cstdio>
 #include <random>
@@ -132,7 +131,7 @@ void print_one_and_many(const Directions& directions) {
       "thread, "
       "the best of 64 rounds of 4096 directions: alone (one call for each) and among many (one call for "
       "all). *Float64 "
-      "loop* is what `Sampler` took the place of. *Own levels*: each direction at a random level of the "
+      "loop* is what `Sampler` replaced. *Own levels*: each direction at a random level of the "
       "pyramid.");
   const Table table({"map", "float64 loop, alone", "many", "`Sampler`, alone", "many", "double, alone",
                      "many", "own levels, many", "target", "met"});

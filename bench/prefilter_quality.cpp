@@ -1,5 +1,5 @@
-// How far pre-filtered levels are from brute force in float64, on maps that look like places and on hostile
-// ones.
+// How far pre-filtered levels are from brute force in float64, on maps that resemble real environments and on
+// hostile ones.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-// How long it takes to resample a lat-long to a cube, beside the same texels fetched at positions that are known
-// beforehand, and how exact those positions are.
+// How long it takes to resample a lat-long to a cube, beside the same texels fetched at positions that are
+// known beforehand, and how exact those positions are.
 //
 // resample_speed                     prints the tables
 // resample_speed gather WIDTH FACE   prints the CPU seconds of the latter alone, from a lat-long so wide
@@ -58,7 +58,8 @@ struct Positions {
   }
 };
 
-/// The floor: the library's own bilinear kernel at positions that lie ready in memory, and the result written.
+/// The floor: the library's own bilinear kernel at positions that lie ready in memory, and the result
+/// written.
 void gather(const Map& source, const Positions& positions, Map& target) {
   const Fetch fetch = fetch_kernels(3).bilinear;
   const LevelView view = view_of(source.level);
@@ -109,8 +110,8 @@ PositionError position_error(const Map& source, const Map& target, const Positio
 
 using Row = std::vector<std::string>;
 
-/// Prints the row of times, and returns the row about positions. max_cpu: seconds, or 0 for a size that is not
-/// judged by itself.
+/// Prints the row of times, and returns the row about positions. max_cpu: seconds, or 0 for a size that is
+/// not judged by itself.
 Row run_size(int width, int face, double max_cpu, const Table& times) {
   const Map source = noise_picture(width, width / 2);
   const auto cube = sphere::AnyParameterization::make("cube");
@@ -155,7 +156,8 @@ int main(int argc, char** argv) {
   }
   heading("Bilinear, lat-long to cube, in memory");
   paragraph(
-      "RGB float. *Gather* is the floor: the same bilinear kernel on the same threads, reading the positions of "
+      "RGB float. *Gather* is the floor: the same bilinear kernel on the same threads, reading the positions "
+      "of "
       "all texels from "
       "memory instead of computing them, and writing the same result. *Copy* is one copy of the source.");
   std::vector<Row> rows;

@@ -83,7 +83,7 @@ int main() {
   const Threads threads;
   const HighDynamicRange picture = high_dynamic_range();
   const Map shown = clipped(picture.map);
-  heading("There and back: lat-long, cube, lat-long");
+  heading("Round trip: lat-long, cube, lat-long");
   paragraph("Of " + picture.name + " (" + std::to_string(picture.map.width()) + "×" +
             std::to_string(picture.map.height()) +
             "). PSNR (peak 1, weighted by solid angle) is of the picture clipped to 0…1 before the trip; "

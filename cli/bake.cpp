@@ -168,7 +168,7 @@ void add_bake(CLI::App& app) {
       ->capture_default_str();
   command->add_option(
       "--rotate", bake->rotation,
-      "Turn the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
+      "Rotate the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
   command->add_option("--convention,--to-convention", bake->convention,
                       "World of the output: three.js, blender… (`welkin list conventions`)");
   command->add_option("--exposure", bake->exposure, "Brighten by this many stops")->check(finite_number());

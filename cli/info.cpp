@@ -248,7 +248,7 @@ void Info::run() const {
 void add_info(CLI::App& app) {
   auto info = std::make_shared<Info>();
   CLI::App* command =
-      app.add_subcommand("info", "Tell what a file is: format, parameterization, luminance, brightest light");
+      app.add_subcommand("info", "Describe a file: format, parameterization, luminance, brightest light");
   command->add_option("FILE", info->files, "Maps to read")->required();
   command->add_flag("--header", info->header, "Only what the header says; read no pixels");
   command->add_flag("--json", info->json, "Machine-readable, on standard output");

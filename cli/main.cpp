@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
   std::vector<std::string> topics;
   CLI::App* help = app.add_subcommand("help", "Help on a command");
   help->add_option("COMMAND", topics, "As `convert`, or `plot density`");
-  app.footer("`welkin help COMMAND` tells more. Documentation: docs/ in the source, README.md first.");
+  app.footer("`welkin help COMMAND` says more. Documentation: docs/ in the source, README.md first.");
 
   std::unique_ptr<tbb::global_control> limit;
   app.parse_complete_callback([&] {

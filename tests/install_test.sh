@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs a build to a temporary folder, moves it, and uses it as a stranger would:
+# Installs a build to a temporary folder, moves it, and uses it from a project outside the source tree:
 #   - every installed header compiles, and none needs more than the standard library and TBB;
 #   - examples/ builds with find_package(welkin), and with pkg-config, and converts a map;
 #   - what it wrote agrees with `welkin convert`.

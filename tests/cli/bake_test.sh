@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# bake: chains and single maps into every kind of file, held to brute force; which way the world lies in them; odd sizes, hostile maps,
+# bake: chains and single maps into every kind of file, compared with brute force; their orientation; odd sizes, hostile maps,
 # bad requests.
 #
 # bake_test.sh WELKIN

@@ -37,7 +37,8 @@ struct Positions {
   Pack fx, fy;
 
   Positions(const LevelView& level, const float* charts, const float* us, const float* vs, float offset) {
-    // NaN becomes the lowest position, so every one stays inside the border; without an offset, in the chart.
+    // NaN becomes the smallest position, so every one stays inside the border; without an offset, in the
+    // chart.
     const auto locate = [offset](const float* from, int size, Pack& fraction, std::int32_t* to) {
       const Pack extent(static_cast<float>(size));
       Pack x = xsimd::fma(Pack::load_unaligned(from), extent, Pack(-offset));
@@ -174,8 +175,8 @@ struct FetchOf {
     }
   };
 
-  /// Limits an interpolated value to near the range [lowest, highest] of the texels around it: half a range
-  /// beyond on either side, and never below half the lowest, so positive radiance stays positive.
+  /// Limits an interpolated value to near the range [minimum, maximum] of the texels around it: half a range
+  /// beyond on either side, and never below half the minimum, so positive radiance stays positive.
   static Value limit_overshoot(const Value& value, const Value& minimum, const Value& maximum) {
     const Value half(0.5f);
     const Value margin = half * (maximum - minimum);

@@ -21,7 +21,7 @@ constexpr double kSamplesPerTexel = 2;
 /// trip (bench/round_trip).
 constexpr float kInterpolated = 1.25f;
 
-/// A side of a texel, at least an eighth as long as the other one: the slivers at a pole are not worth a
+/// A side of a texel, at least an eighth as long as the other one: so that thin texels at a pole do not get a
 /// sample each.
 Vec3d widened(const Vec3d& side, const Vec3d& other) {
   const double long_enough = length(other) / 8, now = length(side);
@@ -54,7 +54,7 @@ double Footprint::narrow() const {
 Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_source, int chart, double x,
                        double y) {
   // Tangents on the sphere times a texel's size: differences over half a texel to each side, or less where a
-  // texel is so large that its ends come round to each other.
+  // texel is so large that its ends meet.
   const auto step = [](const sphere::AnyParameterization& p, int c, double u, double v, double texel_u,
                        double texel_v) {
     constexpr double kLongest = 1.0 / 16;
@@ -70,8 +70,8 @@ Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_s
   const auto& s = source.parameterization;
   const auto position = s.from_sphere(to_source * t.to_sphere(chart, u, v));
   const int source_chart = static_cast<int>(position.chart);
-  // Half a texel inside the chart: past an octahedron's edge the texels come back, and their difference would
-  // vanish.
+  // Half a texel inside the chart: past an octahedron's edge positions fold back, and their difference
+  // would vanish.
   const double texel_u = 1.0 / source.width(), texel_v = 1.0 / source.height();
   const double su = clamp(position.u, 0.5 * texel_u, 1 - 0.5 * texel_u),
                sv = clamp(position.v, 0.5 * texel_v, 1 - 0.5 * texel_v);
@@ -118,8 +118,8 @@ struct Planner {
 
   Footprint at(double x, double y) const { return footprint_at(source, target, to_source, chart, x, y); }
 
-  /// Whether none of nine points of a rectangle is a place of the target: it lies outside a disc, all but a
-  /// sliver perhaps.
+  /// Whether nine points of a rectangle are all invalid in the target: it lies outside a disc, except perhaps
+  /// for a thin part.
   bool outside(int x, int y, int width, int height) const {
     for (int i = 0; i < 9; ++i) {
       const double u = (x + 0.5 * (i % 3) * width) / target.width(),
@@ -154,7 +154,7 @@ struct Planner {
     }
     FootprintTile tile{chart, x, y, width, height, 1, 1, 0, false, {}, {}};
     for (int i = 0; i < 4; ++i) {
-      // In a texel at a pole the corners are no guide to what lies between them.
+      // In a texel at a pole the corners do not bound what lies between them.
       tile.texels_right[i] = static_cast<float>(right.varies() ? right.maximum : corners[i].right_length());
       tile.texels_down[i] = static_cast<float>(down.varies() ? down.maximum : corners[i].down_length());
     }

@@ -41,9 +41,9 @@ TEST(FootprintTest, ItsAreaIsTheRatioOfSolidAngles) {
       const double u = (x + 0.5) / target.width(), v = (y + 0.5) / target.height();
       const auto position =
           source.parameterization.from_sphere(turn * target.parameterization.to_sphere(chart, u, v));
-      const double texel =
-          source.parameterization.solid_angle_density(static_cast<int>(position.chart), position.u, position.v) /
-          source.width() / source.height();
+      const double texel = source.parameterization.solid_angle_density(static_cast<int>(position.chart),
+                                                                       position.u, position.v) /
+                           source.width() / source.height();
       const double mine =
           target.parameterization.solid_angle_density(chart, u, v) / target.width() / target.height();
       const Footprint f = footprint_at(source, target, turn, chart, x + 0.5, y + 0.5);
@@ -53,7 +53,7 @@ TEST(FootprintTest, ItsAreaIsTheRatioOfSolidAngles) {
   }
 }
 
-/// On an octahedron's edge texels come back, at a pole they vanish: the footprint does neither.
+/// On an octahedron's edge texels fold back, at a pole their width vanishes: the footprint does neither.
 TEST(FootprintTest, EdgesAndPolesOfTheSourceAreNotLost) {
   const Map target = make_map("cube", 16);
   for (const std::string& name : sphere::parameterization_names()) {
@@ -107,7 +107,7 @@ TEST(FootprintTest, TheLevelLeavesEightTexelsAcross) {
   for (const FootprintTile& tile : tiles) EXPECT_EQ(tile.samples_right * tile.samples_down, 1);
 }
 
-TEST(FootprintTest, SpreadRisesFromAPointToTheWholeTexel) {
+TEST(FootprintTest, AveragedFractionRisesFromZeroToOne) {
   EXPECT_EQ(averaged_fraction(0), 0);
   EXPECT_EQ(averaged_fraction(1), 0);
   EXPECT_EQ(averaged_fraction(2.5f), 1);

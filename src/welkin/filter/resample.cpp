@@ -11,7 +11,7 @@
 namespace welkin {
 namespace {
 
-/// The fill wherever a chart has no place of the map.
+/// Writes the fill to every texel that is not valid.
 void fill_outside(Map& map, std::vector<float> fill) {
   fill.resize(static_cast<std::size_t>(map.channels()), 0.0f);
   parallel_for(map.charts() * map.height(), [&](int i) {
@@ -58,7 +58,7 @@ void resample(const Map& source, Map& target, const ResampleOptions& options) {
 }
 
 ChartSize default_chart_size(const Map& map, const sphere::AnyParameterization& parameterization) {
-  // The part of its charts' area that is places of the map, on a grid fine enough for a few per mille.
+  // The valid part of its charts' area, on a grid fine enough for a few per mille.
   const auto used = [](const sphere::AnyParameterization& p) {
     constexpr int kGrid = 64;
     int valid = 0;

@@ -12,8 +12,8 @@
 namespace welkin {
 namespace {
 
-/// Where a grid of points of the target lies in the source, and what each weighs: 0 where it is no place of
-/// the target, or the source doesn't show it.
+/// Where a grid of points of the target lies in the source, and the weight of each: 0 where it is not valid
+/// in the target, or the source doesn't show it.
 struct Grid {
   std::vector<float> chart, u, v, weight;
 };
@@ -99,7 +99,7 @@ class AreaResampler {
   }
 
   /// Texels whose area is a parallelogram in one source chart are averaged texel by texel; the few others
-  /// (poles, chart edges, folds, rims) from samples that each find their own place.
+  /// (poles, chart edges, folds, rims) from samples whose positions are computed one by one.
   void fill_by_areas(const FootprintTile& tile, Batch& batch) const {
     Grid corners, centres;
     locate_grid(tile, tile.width + 1, tile.height + 1, 0.0f, batch, corners);
@@ -124,7 +124,7 @@ class AreaResampler {
     }
   }
 
-  /// The parallelogram through four corners, unless one of them is no place of either map, or they lie in
+  /// The parallelogram through four corners, unless one of them is not valid in either map, or they lie in
   /// different charts, or it bends or twists by more than a fraction of a texel, or the target's density is
   /// not linear over it, or it leaves the chart's border.
   static bool parallelogram(const LevelView& level, const Grid& corners, std::size_t corner, std::size_t row,
@@ -175,13 +175,13 @@ class AreaResampler {
   /// many.
   int average(const FootprintTile& tile, int x0, int y0, int most, int per_texel, Batch& batch) const {
     const int texels = std::clamp(kBatch / per_texel, 1, std::min(most, tile.width - x0));
-    // The mean of several samples hides how each is interpolated.
+    // The more samples a mean has, the less their interpolation matters.
     const Fetch kernel = per_texel >= 9  ? job_.kernels.bilinear
                          : per_texel > 4 ? job_.fetch_of(Filter::bicubic)
                                          : job_.fetch_of(Filter::automatic);
     const LevelView& level = levels_[std::min(static_cast<std::size_t>(tile.level), levels_.size() - 1)];
     Sum sum(job_);
-    std::vector<int> beyond;  // texels outside the target's places that show something all the same
+    std::vector<int> beyond;  // texels that are not valid, but show a part of the target
     for (int from = 0; from < per_texel; from += kBatch) {
       const int each = std::min(per_texel - from, kBatch);
       const std::size_t count = static_cast<std::size_t>(each) * static_cast<std::size_t>(texels);
@@ -209,8 +209,8 @@ class AreaResampler {
     return texels;
   }
 
-  /// Positions of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that is
-  /// averaged.
+  /// Positions of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that
+  /// is averaged.
   void spread_samples(const FootprintTile& tile, int x, int y, int from, int count, Batch& batch,
                       std::size_t to) const {
     const float fx = (static_cast<float>(x) + 0.5f) / static_cast<float>(tile.width);

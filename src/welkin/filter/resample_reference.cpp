@@ -71,7 +71,7 @@ Weights weights_at(Filter filter, double position, int size) {
 }
 
 /// The rule of RingingFetch: at most half the range of the inner 4×4 texels beyond that range, and not below
-/// half the lowest.
+/// half the minimum.
 double limit_overshoot(const ImageView<const float>& chart, const Weights& across, const Weights& down,
                        int channel, double value) {
   const int margin = (across.count - 4) / 2;

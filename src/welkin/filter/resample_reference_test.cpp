@@ -32,8 +32,8 @@ int count_different(const Map& a, const Map& b, double tolerance) {
   return count;
 }
 
-/// Positions are float: within 1e-6 of a chart, so where texels are a hundredth of the waves the values agree to
-/// 2e-4. Two positions may come down on different sides of a texel's edge (nearest) or of a rim.
+/// Positions are float: within 1e-6 of a chart, so where texels are a hundredth of the waves the values agree
+/// to 2e-4. Two positions may fall on different sides of a texel's edge (nearest) or of a rim.
 TEST_P(ResampleReferenceTest, PointFiltersAgreeFromEverywhereAndToEverywhere) {
   const Map source = rendered(GetParam(), 48, waves(12, 6));
   for (const std::string& name : sphere::parameterization_names()) {
@@ -90,9 +90,9 @@ void keep_minified(const Map& source, const ResampleOptions& options, const Map&
   });
 }
 
-/// Minified eightfold, against 16×16 points per texel, as they lie and with poles, edges and folds where they
-/// are not by symmetry. Range 0…1. Where one side of a lat-long's texel is minified and the other magnified
-/// (at poles), lines and edges of the source keep Lanczos' overshoot: 28 dB.
+/// Minified eightfold, against 16×16 points per texel, unrotated, and rotated so that poles, edges and folds
+/// lie at no symmetric position. Range 0…1. Where one side of a lat-long's texel is minified and the other
+/// magnified (at poles), lines and edges of the source keep Lanczos' overshoot: 28 dB.
 TEST(ResampleReferenceTest, AreaMeansAreExactToFortyFiveDecibels) {
   const AreaCase each_case[] = {{"latlong", 362, "cube", 16},
                                 {"cube", 160, "latlong", 56},

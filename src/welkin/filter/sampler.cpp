@@ -100,7 +100,7 @@ void look_up_tiles(const Sampler::State& state, const Directions& directions, st
   }
 }
 
-/// A pointer that keeps nothing alive.
+/// A non-owning pointer.
 template <class T>
 std::shared_ptr<const T> borrowed(const T& object) {
   return {std::shared_ptr<void>(), &object};

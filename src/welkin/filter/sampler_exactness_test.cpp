@@ -51,7 +51,7 @@ std::vector<Vec3<float>> telling_directions(const Map& map) {
   return directions;
 }
 
-/// The lowest and the highest value, and whether some are shown and some not, of the float64 look-ups at a
+/// The minimum and the maximum value, and whether some are shown and some not, of the float64 look-ups at a
 /// direction and at those around it, `angle` radians away.
 struct Neighbourhood {
   float minimum = HUGE_VALF, maximum = -HUGE_VALF;
@@ -80,7 +80,7 @@ Neighbourhood around(const Sampler& sampler, const Vec3d& direction, double angl
   return found;
 }
 
-/// A float look-up finds what float64 finds within the promised angle. 3e-7 of a chart's side is at most 2π
+/// A float look-up finds what float64 finds within the stated angle. 3e-7 of a chart's side is at most 2π
 /// times as many radians, around a lat-long. Where radiance is smooth within that angle, the values between
 /// those that the neighbourhood tries differ by less than half of their range. Rounding of values: 1e-6.
 TEST(SamplerExactness, FloatDirectionsAgreeWithFloat64) {

@@ -131,7 +131,7 @@ fs::path follow_links(fs::path path) {
   throw Error(kind_of(ELOOP), reason(ELOOP));
 }
 
-/// A name beside `target` that nobody else has: hidden, with the process's number and a count.
+/// A unique name beside `target`: hidden, with the process's number and a count.
 fs::path temporary_name(const fs::path& target) {
   static std::atomic<unsigned> count{0};
   constexpr std::size_t kMaxNameLength = 200;

@@ -9,7 +9,7 @@
 /// What the tests of lobes share.
 namespace welkin::lobe::cases {
 
-/// Every registered lobe at its defaults, and at narrow, wide and odd parameters.
+/// Every registered lobe at its defaults, and at narrow, wide and unusual parameters.
 inline std::vector<AnyLobe> all_lobes() {
   std::vector<AnyLobe> list;
   for (const std::string& name : lobe_names()) list.push_back(AnyLobe::make(name));

@@ -14,7 +14,7 @@
 namespace welkin::lobe {
 namespace {
 
-TEST(Lobe, MakesEveryNameAndTellsItAgain) {
+TEST(Lobe, EveryNameMakesALobeOfThatName) {
   for (const std::string& name : lobe_names()) {
     const AnyLobe lobe = AnyLobe::make(name);
     EXPECT_EQ(lobe.name(), name);

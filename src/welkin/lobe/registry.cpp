@@ -82,7 +82,7 @@ std::unique_ptr<Model> model_of(Table table, std::string origin) {
   return made;
 }
 
-/// The table behind `table,`.
+/// The table named after `table,`.
 std::unique_ptr<Model> table_from_file(std::string_view assignment) {
   constexpr std::string_view kFile = "file=";
   if (assignment.substr(0, kFile.size()) != kFile || assignment == kFile) {

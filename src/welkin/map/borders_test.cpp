@@ -62,7 +62,8 @@ TEST(BordersTest, KnownNeighbours) {
   EXPECT_EQ(*latlong.at(1, -1), *latlong.at(5, 0));
   EXPECT_EQ(*latlong.at(6, 4), *latlong.at(2, 3));
   Map folded(sphere::AnyParameterization::make("octahedral"), 8, 8, 1);
-  for_each_valid_texel(folded, [&](int chart, int x, int y) { *folded.level.chart(chart).at(x, y) = next++; });
+  for_each_valid_texel(folded,
+                       [&](int chart, int x, int y) { *folded.level.chart(chart).at(x, y) = next++; });
   fill_borders(folded);
   const ImageView<const float> octahedral = std::as_const(folded.level).chart(0);
   for (int i = 0; i < 8; ++i) {
@@ -115,8 +116,8 @@ TEST(BordersTest, CubesAreInterpolatedToTheSecondOrderAtLeast) {
 
 TEST(BordersTest, NothingPastTheRimIsTheMeanOfWhatIsBesideIt) {
   Map map(sphere::AnyParameterization::make("sky-latlong"), 16, 4, 1);
-  for_each_valid_texel(map,
-                 [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = static_cast<float>(x); });
+  for_each_valid_texel(
+      map, [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = static_cast<float>(x); });
   fill_borders(map);
   // Below the horizon: three neighbours above.
   EXPECT_NEAR(*map.level.chart(0).at(5, 4), 5, 1e-6);

@@ -52,7 +52,7 @@ inline Vec3d direction_at(const Map& map, int chart, int x, int y) {
          map.parameterization.to_sphere(chart, (x + 0.5) / map.width(), (y + 0.5) / map.height());
 }
 
-/// body(chart, x, y) for all texels that are places of the map.
+/// body(chart, x, y) for all valid texels.
 template <class Body>
 void for_each_valid_texel(const Map& map, const Body& body) {
   for (int chart = 0; chart < map.charts(); ++chart) {
@@ -64,7 +64,7 @@ void for_each_valid_texel(const Map& map, const Body& body) {
   }
 }
 
-/// Channel c of every position takes (c+1)·f; the borders are filled.
+/// Channel c of every valid texel takes (c+1)·f; the borders are filled.
 inline void render(Map& map, const Function& f) {
   for_each_valid_texel(map, [&](int chart, int x, int y) {
     const double value = f(direction_at(map, chart, x, y));

@@ -55,7 +55,7 @@ std::vector<double> shares(int fine, int coarse, int index) {
 
 /// Σ over a level's texels of value × the solid angle of what it averages is the same sum over the finer
 /// level: even sizes and odd ones, three-channel fast path and general one. Coarse texels whose centres lie
-/// outside a disc are no places of the map, so what they would average (a ring of half a texel) is left out
+/// outside a disc are not valid, so what they would average (a ring of half a texel) is left out
 /// of both.
 TEST_P(PyramidTest, EveryLevelKeepsTheEnergyOfTheOneAbove) {
   for (const int size : {16, 17}) {

@@ -11,13 +11,13 @@ namespace {
 
 using sphere::AnyParameterization;
 
-/// A density that changes by this when a cell is cut up has a kink there, or the cell is large.
+/// When subdividing a cell changes its density by more than this, there is a kink or the cell is large.
 constexpr float kPlain = 1e-5f;
 
-/// How often a cell with a kink is cut up at most, and a large one.
+/// How often a cell with a kink is subdivided at most, and a large one.
 constexpr int kKinkDepth = 7, kLargeDepth = 12;
 
-/// Cuts a cell up.
+/// Subdivides a cell.
 class CellPoints {
  public:
   CellPoints(const AnyParameterization& p, const CellLimits& limits, std::vector<TexelPoint>& points)

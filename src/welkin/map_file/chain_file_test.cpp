@@ -47,7 +47,7 @@ Chain numbered(const std::string& spec, ChartSize finest, int levels, int channe
   return chain;
 }
 
-/// Of positions; reading fills what is none.
+/// Of valid texels; reading fills the others.
 void expect_same(const Map& a, const Map& b) {
   ASSERT_EQ(a.parameterization.spec(), b.parameterization.spec());
   ASSERT_EQ(a.width(), b.width());

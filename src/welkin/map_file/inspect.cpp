@@ -10,7 +10,7 @@
 #include "welkin/map_file/chain_file.h"
 #include "welkin/map_file/map_file_job.h"
 
-/// What a file holds: its own word, the caller's, or a guess.
+/// What a file holds: as it declares, as the caller says, or a guess.
 namespace welkin::map_file {
 namespace {
 
@@ -59,7 +59,7 @@ std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& fil
   return std::nullopt;
 }
 
-/// A declared count, 0 when there is none or it makes no sense.
+/// A declared count, 0 when there is none or it is invalid.
 int positive_number(const std::string& text) {
   const long value = std::strtol(text.c_str(), nullptr, 10);
   return value > 0 && value < (1 << 20) ? static_cast<int>(value) : 0;

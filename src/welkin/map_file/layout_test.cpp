@@ -141,7 +141,7 @@ TEST(Layout, CopyingToACellAndBackKeepsTheChart) {
   }
 }
 
-TEST(MapShape, ParsesAndTellsItselfAgain) {
+TEST(MapShape, ParsesAndPrintsTheSameText) {
   for (const char* text :
        {"latlong", "cube:vcross", "fisheye-equidistant,fov=200", "paraboloid:vstrip", "healpix:grid"}) {
     EXPECT_EQ(parse_map_shape(text).text(), text);

@@ -268,7 +268,8 @@ class Comparer {
       const double relative = ratio(std::sqrt(squared_error), std::max(std::sqrt(squared_a), floor_of_all_));
       sums.relative.take(relative, position);
       if (out != nullptr) {
-        float* texel = out->level.chart(position.row / grid_.height()).at(position.x, position.row % grid_.height());
+        float* texel =
+            out->level.chart(position.row / grid_.height()).at(position.x, position.row % grid_.height());
         texel[0] = static_cast<float>(std::min(relative, 1e6));
         texel[1] = 1;
       }

@@ -209,7 +209,8 @@ TEST(Compare, TheHeatMapShowsRelativeErrorByItsScale) {
   ASSERT_EQ(heat.height(), 64);
   const auto color_at = [&](const Vec3d& d) {
     const auto position = heat.parameterization.from_sphere(d);
-    return heat.level.chart(0).at(static_cast<int>(position.u * 127.99), static_cast<int>(position.v * 63.99));
+    return heat.level.chart(0).at(static_cast<int>(position.u * 127.99),
+                                  static_cast<int>(position.v * 63.99));
   };
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_NEAR(color_at({1, 0.1, 0.1})[c], color_ramp(3.0 / 5)[c],

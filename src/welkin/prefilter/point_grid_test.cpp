@@ -196,8 +196,8 @@ TEST(PointGrid, DiscsMeasureWhatTheyCover) {
     render(map, [](const Vec3d&) { return 1; });
     for (const int degree : {5, 90}) {
       const PointGridPlan plan(map.parameterization, {map.width(), map.height()}, degree);
-      EXPECT_NEAR(weighted_sum(make_point_grid(map, plan, {}), 0, 1, one) / map.parameterization.coverage(), 1,
-                  3e-5)
+      EXPECT_NEAR(weighted_sum(make_point_grid(map, plan, {}), 0, 1, one) / map.parameterization.coverage(),
+                  1, 3e-5)
           << name;
     }
   }

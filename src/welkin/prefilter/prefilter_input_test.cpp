@@ -66,7 +66,7 @@ TEST(PrefilterInput, RefusesValuesThatCannotBeSummed) {
   }
 }
 
-/// The corners of a disc are no places of the map; what a file has there doesn't matter.
+/// The corners of a disc are not valid; what a file has there is ignored.
 TEST(PrefilterInput, TheUnusedCornersOfADiscMayHoldAnything) {
   const Map clean = landscape("fisheye-equidistant", 24, 24);
   Map dirty = landscape("fisheye-equidistant", 24, 24);

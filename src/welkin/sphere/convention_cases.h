@@ -21,8 +21,9 @@ struct Position {
 struct Program {
   std::string name;
   std::function<Vec3d(const Vec3d&)> from_native;  ///< native direction → its world
-  std::function<Position(const Vec3d&)> latlong;  ///< its world's direction → position in its lat-long, v down
-  std::function<Vec3d(const Vec3d&)> cube;     ///< its world's direction → what it gives to a cube look-up
+  std::function<Position(const Vec3d&)>
+      latlong;                              ///< its world's direction → position in its lat-long, v down
+  std::function<Vec3d(const Vec3d&)> cube;  ///< its world's direction → what it gives to a cube look-up
   int lookup_determinant;
 };
 

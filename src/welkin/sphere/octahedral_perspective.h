@@ -14,7 +14,7 @@ namespace welkin::sphere {
 /// octant |x| + |y|
 /// + |z| = √3 n·p, with n the side's unit normal, so p' = p/(√3 n·p) is the central projection of p on the
 /// side's plane, and each unfolding of the octahedron maps that plane by an affine map. So on every side
-/// Octahedral, OctahedralRect and this one sample alike: their densities are proportional.
+/// Octahedral, OctahedralRect and this one have proportional densities.
 struct OctahedralPerspective : WholeWorld {
   static constexpr const char* kName = "octahedral-perspective";
   static constexpr int kCharts = 8;

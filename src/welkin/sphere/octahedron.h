@@ -26,7 +26,7 @@ T mirror_at_one(T s) {
 }
 
 /// The square unfolding, both coordinates in [−1, 1], is continued past its edges by folding it back: the
-/// point beyond an edge is the point mirrored at the edge with the other coordinate turned round. Exact for
+/// point beyond an edge is the point mirrored at the edge with the other coordinate negated. Exact for
 /// |s|, |t| ≤ 3.
 template <class T>
 struct SquarePoint {

@@ -14,7 +14,7 @@ using Pack = xsimd::batch<float>;
 
 constexpr double kDirectionError = 3e-7;  ///< of to_sphere
 constexpr double kInputRounding = 6e-8;   ///< 2u − 1 and the like, in float
-constexpr double kPositionError = 3e-7;      ///< of from_sphere, in u and v
+constexpr double kPositionError = 3e-7;   ///< of from_sphere, in u and v
 
 template <class P>
 class ParameterizationPrecisionTest : public ::testing::Test {};

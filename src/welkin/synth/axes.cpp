@@ -51,7 +51,7 @@ int grid_line(const Vec3d& d, double azimuth, double elevation) {
 }
 
 /// The target around each corner of the cube: black and white rings, each 0.8 times as wide as the one
-/// outside it, so that sharpness is where they melt together. False outside; `white` says which.
+/// outside it, so that the radius where they merge shows the resolution. False outside; `white` says which.
 bool corner_target(const Vec3d& d, bool& white) {
   constexpr double kRadius = 7;
   const double cosine = (abs(d.x) + abs(d.y) + abs(d.z)) / std::sqrt(3.0);

@@ -34,7 +34,7 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
     p.kernels().valid(p.self(), chart, u, v, valid, size);
   };
 
-  // Add up the samples, place by place in all texels.
+  // Sum the samples: for each position within a texel, over all texels.
   for (int k = 0; k < samples * samples; ++k) {
     const int column = k % samples, row = k / samples;
     set_positions((column + (row + 0.5) / samples) / samples, (row + (column + 0.5) / samples) / samples);

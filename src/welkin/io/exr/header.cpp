@@ -169,7 +169,7 @@ std::optional<Part> parse_header(const Source& source, Cursor& cursor, std::uint
   return part;
 }
 
-/// Takes the part's chunk table; entries of level 0 must point behind all tables and into the file.
+/// Reads the part's chunk table; entries of level 0 must point behind all tables and into the file.
 void place_table(const Source& source, Part& part, Cursor& cursor) {
   part.table = cursor.offset();
   if (part.chunk_count > cursor.left() / sizeof(std::uint64_t))

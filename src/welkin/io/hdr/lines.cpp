@@ -103,7 +103,7 @@ void decode_hdr_line(const std::byte* line, HdrCoding coding, HdrPlanes& planes)
   const int length = planes.length();
   if (coding == HdrCoding::components) {
     data += 4;
-    // The planes stand one after the other, and no run passes the end of its own.
+    // The planes follow each other, and no run passes the end of its own.
     std::uint8_t* out = planes[0];
     std::uint8_t* const end = out + 4 * static_cast<std::size_t>(length);
     while (out < end) {

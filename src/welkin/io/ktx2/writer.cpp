@@ -174,7 +174,7 @@ class Writer {
     return static_cast<std::size_t>(header_.height_of(level)) * pictures_.of_level();
   }
 
-  /// Gives the levels, whose stored sizes are known, their offsets, and writes what stands before them.
+  /// Gives the levels, whose stored sizes are known, their offsets, and writes what precedes them.
   void write_head(ByteSink& file) {
     const std::uint64_t alignment = level_alignment(header_);
     std::uint64_t offset = header_.keys.offset + header_.keys.bytes;

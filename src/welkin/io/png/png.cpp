@@ -26,8 +26,8 @@ bool matches(std::span<const std::byte> bytes) {
   return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
 }
 
-/// Throws unless whole chunks, as their lengths say, lead to an IEND. libpng would first make room for a
-/// chunk of any length and then miss its bytes.
+/// Throws unless whole chunks, as their lengths say, lead to an IEND. libpng would first allocate memory for
+/// a chunk of any length, and then find its bytes missing.
 void check_chunks(const Source& source) {
   constexpr std::size_t kAround = 12;  // length, name and checksum
   const auto fail = [&](const char* cause, std::size_t at) {

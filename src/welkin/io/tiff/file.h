@@ -13,7 +13,7 @@
 
 namespace welkin::io {
 
-/// libtiff's complaints, kept instead of printed: the first error since it was last cleared.
+/// libtiff's errors, kept instead of printed: the first error since it was last cleared.
 struct TiffFailure {
   char text[300] = {};
 
@@ -55,7 +55,8 @@ inline TiffHandle open_tiff_stream(const TiffStream& stream, const char* mode, s
                                                                              TIFFOpenOptionsFree);
   if (options == nullptr) throw std::bad_alloc();
   constexpr std::uint64_t kMaxAllocation = std::numeric_limits<tmsize_t>::max();
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(std::min(max_memory, kMaxAllocation)));
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(),
+                                      static_cast<tmsize_t>(std::min(max_memory, kMaxAllocation)));
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), TiffFailure::keep, &failure);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), TiffFailure::ignore, nullptr);
   return TiffHandle(TIFFClientOpenExt(

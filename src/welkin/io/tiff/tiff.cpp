@@ -176,7 +176,7 @@ class TiffReader : public Reader {
     return page.planar ? value : value * static_cast<std::size_t>(page.stored_samples);
   }
 
-  /// A block's rows to their place, the pixels of each having srgb.size() samples.
+  /// Copies a block's rows into the picture; pixels have srgb.size() samples.
   static void place(const TiffPage& page, const Block& block, std::vector<bool> srgb,
                     std::span<const int> channels, ImageView<float> out) {
     const std::size_t values = static_cast<std::size_t>(block.width) * srgb.size();
@@ -201,7 +201,7 @@ class TiffReader : public Reader {
       float* first = out.at(block.x, block.y + y);
       decoder.decode(row, channels, block.width, first, out.channels);
     };
-    // A thread is worth starting for tens of thousands of values.
+    // Starting a thread pays from tens of thousands of values on.
     constexpr std::size_t kValuesOfTask = 1 << 15;
     const std::size_t grain = kValuesOfTask / values + 1;
     tbb::parallel_for(tbb::blocked_range<int>(0, block.height, grain),
