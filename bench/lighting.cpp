@@ -48,7 +48,7 @@ struct Texel {
 };
 
 struct ComparedTexels {
-  std::vector<Texel> texels;  ///< those by chance first
+  std::vector<Texel> texels;  ///< the random ones first
   std::size_t random;
 };
 

@@ -34,8 +34,8 @@ struct LevelErrors {
   double maximum = 0;  ///< of |error| / |reference|
 };
 
-/// A level's texels against brute force with the lobe, all channels together: the RMSE over 300 texels by
-/// chance, weighted by solid angle, and the maximum over these and the 100 that are brightest.
+/// A level's texels against brute force with the lobe, all channels together: the RMSE over 300 random
+/// texels, weighted by solid angle, and the maximum over these and the 100 that are brightest.
 LevelErrors errors_of(const PrefilterReference& reference, const Map& level, const lobe::AnyLobe& lobe);
 
 /// `0.0123 / 0.38`: in percent.

@@ -157,7 +157,7 @@ void add_bake(CLI::App& app) {
       ->check(CLI::IsMember({"rgba32f", "rgba16f", "rgb9e5", "r11g11b10"}));
   command
       ->add_option("--normalisation", bake->normalisation,
-                   "average: a constant map stays as it is; integral: times the lobe's integral, of lambert "
+                   "average: a constant map is unchanged; integral: times the lobe's integral, of lambert "
                    "the irradiance")
       ->check(CLI::IsMember({"average", "integral"}))
       ->capture_default_str();

@@ -280,7 +280,7 @@ int levels_of(const MapFileInfo& info) {
 
 void report_losses(const std::string& path, const io::WriteReport& report) {
   const auto warn = [&](std::uint64_t count, std::string_view what) {
-    if (count > 0) tell(fmt::format("welkin: {}: {} values {}\n", path, count, what));
+    if (count > 0) print_message(fmt::format("welkin: {}: {} values {}\n", path, count, what));
   };
   warn(report.above, "were above what the file can hold, and clipped");
   warn(report.below, "were negative, and are 0 in the file");

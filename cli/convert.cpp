@@ -53,8 +53,8 @@ void Convert::run() const {
   const int levels = levels_for(info);
   shape = to.empty() ? shape_for_copy(info, out, levels) : parse_map_shape_for(out, to, levels);
   if (!read.level && levels < levels_of(info)) {
-    tell(fmt::format("welkin: {}: holds level 0 of the {} of {}; --level takes another\n", out,
-                     levels_of(info), in));
+    print_message(fmt::format("welkin: {}: holds level 0 of the {} of {}; --level takes another\n", out,
+                              levels_of(info), in));
   }
 
   Chain chain;
@@ -82,7 +82,7 @@ void Convert::run() const {
   }
   end_progress();
   if (sanitize)
-    tell(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
+    print_message(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
   report_losses(out, write_chain(out, chain, shape->layout, write_options));
 }
 

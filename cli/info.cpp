@@ -139,7 +139,7 @@ void print_header(const std::string& path, const MapFileInfo& info) {
              info.image.colour == io::Colour::srgb ? "sRGB" : "linear");
   print_texture(info.image);
   for (const io::PartInfo& part : info.image.parts) {
-    // Faces, layers and levels of a texture are alike, save their size.
+    // Faces, layers and levels of a texture are alike, except in size.
     const bool alike = is_texture(info.image) || info.image.levels > 1;
     if (alike && (part.level > 0 || part.layer > 0 || part.face > 0)) continue;
     std::string channels;

@@ -116,7 +116,7 @@ int report(int status, const char* what) {
   cli::end_progress();
   std::fflush(stdout);
   constexpr std::size_t kLongest = 4096;
-  cli::tell(fmt::format("welkin: {}\n", cli::printable(what, kLongest)));
+  cli::print_message(fmt::format("welkin: {}\n", cli::printable(what, kLongest)));
   return status;
 }
 

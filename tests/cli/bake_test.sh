@@ -187,7 +187,7 @@ for to in octahedral cube equal-area mirror-ball cylinder,fov=170; do
   each relative_rmse 0 0.001
 done
 must synth studio part.exr --to fisheye-equidistant --size 64
-says 'part.exr: shows 50.0 % of the sphere; the rest counts as black$' bake part.exr part.ktx2 --size 16
+says 'part.exr: shows 50.0 % of the sphere; the rest is black$' bake part.exr part.ktx2 --size 16
 # Behind it there is nothing; Lambert's lobe toward the middle of a half sees nothing else.
 near "behind a fisheye" "$(sample_along part.ktx2 0,0,-1 --level 1 | awk '{ print ($1 < 1e-3) }')" 1 0
 must synth constant half.exr --to fisheye-equidistant --size 256

@@ -143,7 +143,7 @@ run convert wild.pfm wild.png
 must convert wild.pfm wild.exr
 near "NaN is kept" "$("$welkin" info wild.exr --json | number nan)" 1 0
 
-# The number of threads changes nothing, the instruction set next to nothing.
+# The number of threads changes nothing, the instruction set only rounding.
 for to in latlong cube octahedral healpix angular; do
   for options in "" "--rotate 10,20,30" "--filter lanczos" "--size 12"; do
     # shellcheck disable=SC2086

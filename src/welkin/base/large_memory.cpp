@@ -48,7 +48,7 @@ void give_back(std::byte* memory, std::size_t) {
 #else
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
-constexpr std::size_t kSmallest = std::size_t{64} << 10;  ///< that is cut out of a region
+constexpr std::size_t kSmallest = std::size_t{64} << 10;  ///< that is allocated in a region
 constexpr std::size_t kLargest = std::size_t{32} << 20;   ///< likewise
 constexpr std::size_t kRegion = std::size_t{64} << 20;
 constexpr std::ptrdiff_t kKept = 2;  ///< unused regions that stay allocated

@@ -56,7 +56,7 @@ TEST(ResampleTest, RotationThereAndBackReturns) {
   }
 }
 
-/// A map's pixels may lie turned in the world, and both ends of a conversion say so by `orientation`.
+/// A map may be rotated in the world: source and target each have their own `orientation`.
 TEST(ResampleTest, OrientationsAndRotationCompose) {
   const Matrix3 a = rotation_from_yaw_pitch_roll(20, 50, -10), b = rotation_from_yaw_pitch_roll(-70, 15, 33);
   Matrix3 mirrored = rotation_from_yaw_pitch_roll(10, 20, 30);
@@ -230,7 +230,7 @@ TEST(ResampleTest, ProgressRisesToOneAndCancellingThrows) {
 }
 
 /// Outside the discs of a paraboloid and the triangles of an octahedron's perspective pictures, the pictures
-/// go on: what their direction shows, so that a renderer may read across the rim.
+/// continue: what their direction shows, so that a renderer may read across the rim.
 TEST(ResampleTest, PicturesThatGoOnShowTheirDirectionsToTheEdge) {
   const auto smooth_world = [](const Vec3d& d) { return 2 + d.x - 0.5 * d.y + 0.25 * d.x * d.z; };
   Map source(sphere::AnyParameterization::make("latlong"), 256, 128, 1);

@@ -19,7 +19,7 @@ struct Charlie {
 
   template <class Visitor>
   void visit_parameters(Visitor&& visit) {
-    visit("roughness", roughness, 0.01, 1.0, "√α; at 0 nothing would be left of the lobe");
+    visit("roughness", roughness, 0.01, 1.0, "√α; the lobe vanishes at 0");
   }
 
   bool mirror() const { return false; }

@@ -58,7 +58,7 @@ constexpr Curve kCurves[] = {
      [](double roughness, int last) { return last * std::sqrt(roughness); }},
 };
 
-// three.js counts m, the binary logarithm of a level's face size, and goes on below its smallest face of 16
+// three.js counts m, the binary logarithm of a level's face size, and continues below its smallest face of 16
 // with levels of that size: m = 3 … −2.
 struct Knot {
   double roughness, size;

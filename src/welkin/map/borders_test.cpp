@@ -22,7 +22,7 @@ void for_each_border_texel(const Map& map, int width, const Body& body) {
   }
 }
 
-/// Past their edges these go on in texels of another edge, or of another part of the same one.
+/// Past their edges these continue in texels of another edge, or of another part of the same one.
 TEST(BordersTest, ExactTopologiesRepeatTexelsBitForBit) {
   for (const char* name : {"latlong", "octahedral", "octahedral-rect", "octahedral-equal-area"}) {
     // Even around, so that the texel across a pole is one.

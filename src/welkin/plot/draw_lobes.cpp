@@ -44,7 +44,7 @@ class Frame {
 
   double x(double degrees) const { return box_.x + box_.width * degrees / plot_.degrees; }
   double degrees(double x) const { return (x - box_.x) / box_.width * plot_.degrees; }
-  /// Of a share of the largest weight. Below the logarithmic axis' end it goes on to beneath the frame.
+  /// Of a share of the largest weight. Below the logarithmic axis' end it continues below the frame.
   double y(double share) const {
     double position = share;
     if (plot_.axis == WeightAxis::logarithmic) {
@@ -113,7 +113,7 @@ void draw_curve(Image& picture, const AnyLobe& lobe, const Frame& frame, const R
   std::vector<double> weights;
   for (const double angle : angles) weights.push_back(lobe.weight(lobe::s_of_angle(angle / 180 * kPi)));
   const double largest = *std::max_element(weights.begin(), weights.end());
-  // The most that any stretch of the curve covers of a pixel counts, lest joints show.
+  // A pixel is covered by the maximum over the curve's segments, so that joints don't show.
   const Box& box = frame.box();
   const double half_width = frame.text() / 9.0;
   std::vector<float> cover(static_cast<std::size_t>(picture.width()) *

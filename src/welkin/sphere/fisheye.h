@@ -63,7 +63,7 @@ struct FisheyeOrthographic : Fisheye<FisheyeOrthographic> {
     const Arc<T> arc = arc_of_sine(s * radius);
     return {s * arc.ratio, arc.cosine};
   }
-  /// Directions behind the camera lie past the rim, where `ray` goes on: 2 − sin θ.
+  /// Directions behind the camera lie past the rim, where `ray` continues: 2 − sin θ.
   template <class T>
   T radius(const Polar<T>& polar) const {
     const auto behind = polar.cosine < constant<T>(0);

@@ -41,8 +41,8 @@ SquarePoint<T> fold_square(T s, T t) {
 }
 
 /// The height y of the point (a, b) of a half octahedron turned by 45° to fill a square, x = (a ± b)/2: 1 −
-/// max(|a|, |b|). Past an edge the square goes on, mirrored, over the other half; `a` and `b` are changed to
-/// the mirrored point.
+/// max(|a|, |b|). Past an edge the square continues, mirrored, over the other half; `a` and `b` are changed
+/// to the mirrored point.
 template <class T>
 T fold_half(T& a, T& b) {
   const T one = constant<T>(1);
