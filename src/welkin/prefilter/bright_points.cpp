@@ -105,7 +105,7 @@ void collect(const PointGrid& grid, int pack, float threshold, std::vector<Candi
   }
 }
 
-/// Takes these points out of the grid.
+/// Removes these points from the grid.
 void take(PointGrid& grid, std::span<const Candidate> candidates, BrightPoints& points) {
   // A box as wide as the column: Gauss's rule of three points.
   struct Part {

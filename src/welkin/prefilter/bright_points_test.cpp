@@ -55,7 +55,7 @@ double total(const BrightPoints& points, int c) {
 }
 
 /// Nothing is lost but the rounding of floats.
-TEST(BrightPoints, TakenAndLeftAreAll) {
+TEST(BrightPoints, RemovedAndRemainingPointsAreAll) {
   for (const bool boxes : {false, true}) {
     for (const int lamps : {0, 1, 30, 200}) {
       PointGrid grid = noise(lamps);
@@ -70,7 +70,7 @@ TEST(BrightPoints, TakenAndLeftAreAll) {
   }
 }
 
-/// Lamps are taken where they lie, the largest first, and nothing else changes.
+/// Lamps are removed at their positions, the largest first, and nothing else changes.
 TEST(BrightPoints, TheLargestAreRemovedFromTheGrid) {
   for (const int always : {1, 7, 50}) {
     PointGrid grid = noise(100), before = noise(100);
@@ -105,7 +105,7 @@ TEST(BrightPoints, TheLargestAreRemovedFromTheGrid) {
   }
 }
 
-/// A box's three points have its centre, and its spread along the row: width²/12 (a Gauss rule is exact).
+/// A box's three points have its centre, and its variance along the row: width²/12 (a Gauss rule is exact).
 TEST(BrightPoints, BoxesHaveTheirWidth) {
   PointGrid grid = noise(0);
   grid.boxes = true;

@@ -73,7 +73,7 @@ TEST(Fft, OrdersAreTheFourierSums) {
       const FftPlan plan(length);
       const Buffer rows = random_rows(length, 1);
       Buffer data = random_rows(length, 1), work(data.size());
-      // Beyond half the length the orders come again, and factors are taken as they are.
+      // Beyond half the length the orders repeat, and factors apply unchanged.
       const int degree = length + 3;
       std::vector<float> factors;
       for (int m = 0; m <= degree; ++m) factors.push_back(m % 3 == 1 ? 0.5f : 1.0f);
@@ -144,7 +144,7 @@ TEST(Fft, RowsAreTheFourierSeries) {
   }
 }
 
-/// There and back with all orders is `length` times the rows, twice: once by each of the halves.
+/// Forward and inverse with all orders give `length` times the rows, twice: once by each of the halves.
 TEST(Fft, BackIsTheInverse) {
   for (const Kernels* table : all_tables()) {
     for (const int length : kLengths) {

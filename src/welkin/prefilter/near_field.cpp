@@ -80,7 +80,7 @@ class Near {
   double beyond() const { return 2 * kPi * last_ * full(last_); }
   double operator()(double s) const {
     if (!(s < last_)) return 0;
-    // Its end is rounded off: sums over rows don't take to a step.
+    // Its end is rounded off: sums over rows converge slowly for a step.
     const double part = s / last_, square = part * part, rounded = 1 - square * square * square;
     return full(s) * rounded * rounded;
   }
@@ -132,7 +132,7 @@ std::vector<double> zonal_of(const Part& near, double width, int degree) {
   return lobe::legendre_sums(std::move(s), std::move(weight), degree);
 }
 
-/// The smallest exponent X with which neither cut matters; or the one with the best of cores, where the
+/// The smallest exponent X for which both truncation errors are negligible; or the one with the best of cores, where the
 /// lobe's own core isn't of the form that makes the far part smooth.
 Split split_of(const lobe::AnyLobe& lobe, double scale, const std::vector<double>& zonal, int degree,
                double tolerance) {

@@ -188,7 +188,7 @@ TEST(PointGrid, DependOnNothingButTheMap) {
   }
 }
 
-/// A texel at a disc's rim counts by what of it lies within: a constant picture measures as much as the map
+/// A texel at a disc's rim is weighted by the part of it within: a constant picture measures as much as the map
 /// covers.
 TEST(PointGrid, DiscsMeasureWhatTheyCover) {
   for (const char* name : {"angular", "fisheye-equidistant", "half-cube", "paraboloid", "hemi-octahedral"}) {

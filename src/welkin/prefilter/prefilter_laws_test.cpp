@@ -199,7 +199,7 @@ void change(Map& map, const Body& body) {
   fill_borders(map);
 }
 
-/// Signs pass through: rounding. A mirror's kernel is held to the range of positive light (filter/fetch.h).
+/// Signs pass through: rounding. A mirror's kernel is clamped for positive light (filter/fetch.h).
 TEST(PrefilterLaws, NegativeRadianceIsConvolvedToo) {
   for (const Shape& shape : {Shape{"latlong", 64, 32}, {"cube", 16, 16}}) {
     Map source = landscape(shape.parameterization, shape.width, shape.height);
@@ -263,8 +263,7 @@ TEST(PrefilterLaws, SumsOfMapsAreSumsOfLevels) {
   }
 }
 
-/// The same picture in another program's world: the levels in that world are the same too, and those in ours
-/// are turned.
+/// The same picture in another program's world: the levels in that world are the same too, and those in ours are rotated.
 TEST(PrefilterLaws, OrientationsOfSourceAndResultCancel) {
   const Map plain = landscape("cube", 12, 12);
   const std::vector<Map> expected = run(plain, "cube", {8, 8});

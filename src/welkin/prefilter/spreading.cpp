@@ -62,8 +62,8 @@ class SpreadSums {
     }
   }
 
-  /// Brings what lies past the edges to where it belongs: left and right go around, and past a pole the rows
-  /// go on down the opposite meridian.
+  /// Adds what lies past the edges to the points it wraps to: left and right go around, and past a pole the rows
+  /// continue down the opposite meridian.
   void fold() {
     const int half = width_ / 2;
     for (int y = -kMargin; y < height_ + kMargin; ++y) {
@@ -118,8 +118,7 @@ struct Points {
   std::size_t count;
 };
 
-/// How many cells a texel is cut into so that none is wider than a step of the grid. 0 × 0: it is so small
-/// that one point will do.
+/// How many cells a texel is cut into so that none is wider than a step of the grid. 0 × 0: it is so small that one point suffices.
 struct Cells {
   int across = 0, down = 0;
   friend bool operator==(const Cells&, const Cells&) = default;

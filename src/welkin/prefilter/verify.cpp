@@ -167,7 +167,7 @@ double furnace_of_part(const Map& level, const Compared& compared, const std::ve
   return largest;
 }
 
-/// Holds one level after another to references; tells the monitor how much of all is done.
+/// Compares one level after another with references; reports progress to the monitor.
 class Verifier {
  public:
   Verifier(const Map& source, std::span<const Map> maps, std::span<const PrefilterLevel> levels,

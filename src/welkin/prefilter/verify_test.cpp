@@ -95,7 +95,7 @@ TEST(Verify, AFactorIsFoundAsItsExcess) {
   EXPECT_NEAR(errors.maximum, 0.03125, 1e-6);
 }
 
-/// One wrong texel out of 6·16² where it matters, too bright or too dark: chance would miss it.
+/// One wrong texel out of 6·16² near the light, too bright or too dark: random texels would miss it.
 TEST(Verify, AWrongTexelInTheLightIsFound) {
   const Map source = sun("latlong", 64, 32);
   Map level = exact_level(source, kLobe, "cube", 16);
@@ -122,7 +122,7 @@ TEST(Verify, AWrongTexelInTheLightIsFound) {
   }
 }
 
-TEST(Verify, ANumberThatIsNoneIsNoSmallError) {
+TEST(Verify, NanIsNotASmallError) {
   const Map source = sun("latlong", 32, 16);
   Map level = exact_level(source, kLobe, "cube", 1);
   level.level.chart(3).at(0, 0)[1] = std::numeric_limits<float>::quiet_NaN();
@@ -227,7 +227,7 @@ TEST(Verify, ProgressRisesToOne) {
 
 // ---- which texels
 
-TEST(VerifyTexels, ChancePicksPlacesOnceAndAllOfFew) {
+TEST(VerifyTexels, RandomTexelsAreDrawnOnceAndAllOfFew) {
   for (const char* name : {"cube", "latlong", "angular", "healpix"}) {
     for (const int size : {1, 2, 5, 40}) {
       const Map level(AnyParameterization::make(name), size, size, 1);
@@ -305,8 +305,7 @@ TEST(VerifyEnergy, FejersRuleIsExactForPolynomials) {
   }
 }
 
-/// The grid integrates the lobe about any axis of the world, and so any sum of them. verify_energy.h promises
-/// 2e-5.
+/// The grid integrates the lobe about any axis of the world, and so any sum of them. verify_energy.h states 2e-5.
 TEST(VerifyEnergy, TheGridResolvesEveryLobeItTakes) {
   const std::vector<Vec3d> axes{{0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0.3, 0.8, -0.5}, {0.001, -1, 0}};
   const Matrix3 orientation = prefilter::energy_grid_orientation();
@@ -334,8 +333,7 @@ TEST(VerifyEnergy, TheGridResolvesEveryLobeItTakes) {
   EXPECT_GT(taken, 10);
 }
 
-/// Narrow lobes at the source's own texels, by the reference: texels of 7°, for which verify_energy.h
-/// promises 5e-4.
+/// Narrow lobes at the source's own texels, by the reference: texels of 7°, for which verify_energy.h states 5e-4.
 TEST(VerifyEnergy, TheSourcesTexelsAddUpForNarrowLobes) {
   for (const char* spec : {"ggx,roughness=0.125"}) {
     const AnyLobe lobe = AnyLobe::make(spec);

@@ -47,7 +47,7 @@ Vec3d direction_of(const Map& map, const Texel& t) {
 std::vector<Texel> random_texels(const Map& level, int count, std::uint64_t seed) {
   const std::int64_t all = texels_of(level);
   std::vector<Texel> texels;
-  // Where most of the texels may be wanted, they are told one by one.
+  // Where most of the texels may be drawn, each is tested.
   if (all <= std::int64_t{4} * count) {
     for (std::int64_t i = 0; i < all; ++i) {
       if (is_valid_texel(level, texel_at(level, i))) texels.push_back(texel_at(level, i));

@@ -63,8 +63,7 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   const int most = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMaxDegree);
   int known = std::min(most, 4 * finest + 192);
   std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
-  // A lobe with a step or a kink falls off slowly: as many degrees as show it to matter no more, or as many
-  // as are worth it.
+  // A lobe with a step or a kink falls off slowly: degrees up to where it is negligible, or up to a limit of cost.
   while (known < 768 && degree_of(zonal, tolerance) > known * 9 / 10) {
     known *= 2;
     zonal = lobe::zonal_coefficients(lobe, known);
