@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "welkin/filter/sample.h"
+#include "welkin/filter/sampler.h"
 #include "welkin/prefilter/prefilter_cases.h"
 #include "welkin/sphere/convention.h"
 
@@ -69,7 +69,7 @@ TEST(PrefilterLaws, AConstantMapIsConstantInLookUpsBesideEdges) {
       }
       std::vector<float> values(directions.size());
       for (const Filter filter : {Filter::bilinear, Filter::bicubic, Filter::lanczos}) {
-        sample(level, level.level, directions, filter, values);
+        Sampler(level, {.filter = filter}).look_up(directions, values);
         for (const float value : values) EXPECT_NEAR(value, 2, 1e-3) << target;
       }
     }
@@ -176,16 +176,16 @@ TEST(PrefilterLaws, PositiveMapsStayPositiveAndBlackOnesBlack) {
 
 /// The largest difference of two levels, over the largest value.
 double difference(const Map& a, const Map& b, double factor = 1) {
-  double most = 0, worst = 0;
+  double maximum = 0, worst = 0;
   cases::for_each_valid_texel(a, [&](int chart, int x, int y) {
     for (int c = 0; c < a.channels(); ++c) {
       const double p = static_cast<double>(a.level.chart(chart).at(x, y)[c]);
       const double q = factor * static_cast<double>(b.level.chart(chart).at(x, y)[c]);
-      most = std::max(most, std::fabs(p));
+      maximum = std::max(maximum, std::fabs(p));
       worst = std::fabs(p - q) <= worst ? worst : std::fabs(p - q);
     }
   });
-  return worst / most;
+  return worst / maximum;
 }
 
 template <class Body>
@@ -263,7 +263,8 @@ TEST(PrefilterLaws, SumsOfMapsAreSumsOfLevels) {
   }
 }
 
-/// The same picture in another program's world: the levels in that world are the same too, and those in ours are rotated.
+/// The same picture in another program's world: the levels in that world are the same too, and those in ours
+/// are rotated.
 TEST(PrefilterLaws, OrientationsOfSourceAndResultCancel) {
   const Map plain = landscape("cube", 12, 12);
   const std::vector<Map> expected = run(plain, "cube", {8, 8});
