@@ -46,11 +46,11 @@ std::optional<double> finite(const std::string& text) {
 
 }  // namespace
 
-CLI::Validator finite_number(double least) {
-  const auto check = [least](std::string& text) {
+CLI::Validator finite_number(double minimum) {
+  const auto check = [minimum](std::string& text) {
     const std::optional<double> value = finite(text);
     if (!value) return "'" + text + "' is not a number";
-    return *value < least ? fmt::format("{} is below {}", text, least) : std::string();
+    return *value < minimum ? fmt::format("{} is below {}", text, minimum) : std::string();
   };
   return CLI::Validator(check, "");
 }

@@ -171,10 +171,10 @@ class AreaResampler {
     return std::isfinite(out.gradient[0]) && std::isfinite(out.gradient[1]);
   }
 
-  /// Means of the next texels of a tile's row, at most `most` and as many as fit into a batch; returns how
+  /// Means of the next texels of a tile's row, at most `limit` and as many as fit into a batch; returns how
   /// many.
-  int average(const FootprintTile& tile, int x0, int y0, int most, int per_texel, Batch& batch) const {
-    const int texels = std::clamp(kBatch / per_texel, 1, std::min(most, tile.width - x0));
+  int average(const FootprintTile& tile, int x0, int y0, int limit, int per_texel, Batch& batch) const {
+    const int texels = std::clamp(kBatch / per_texel, 1, std::min(limit, tile.width - x0));
     // The more samples a mean has, the less their interpolation matters.
     const Fetch kernel = per_texel >= 9  ? job_.kernels.bilinear
                          : per_texel > 4 ? job_.fetch_of(Filter::bicubic)

@@ -112,8 +112,8 @@ std::shared_ptr<const Sampler::State> state_of(std::shared_ptr<const Map> map,
   if (options.levels < 0) refuse("a pyramid of " + std::to_string(options.levels) + " levels");
   auto state = std::make_shared<Sampler::State>(map, *map, options);
   state->add(map->parameterization, map->level);
-  const int most = levels_below(map->width(), map->height());
-  state->add_pyramid(*map, options.levels == 0 ? most : std::min(options.levels - 1, most));
+  const int last_level = levels_below(map->width(), map->height());
+  state->add_pyramid(*map, options.levels == 0 ? last_level : std::min(options.levels - 1, last_level));
   return state;
 }
 

@@ -40,13 +40,13 @@ inline std::vector<double> s_values() {
 
 /// The largest weight on a fine lattice.
 inline double largest_weight(const AnyLobe& lobe) {
-  double most = 0;
-  for (const double s : s_values()) most = std::max(most, lobe.weight(s));
+  double maximum = 0;
+  for (const double s : s_values()) maximum = std::max(maximum, lobe.weight(s));
   for (int i = 0; i < 2000; ++i) {
     const double half_sine = std::sin(0.5 * 3.14159265358979 * i / 2000);
-    most = std::max(most, lobe.weight(2 * half_sine * half_sine));
+    maximum = std::max(maximum, lobe.weight(2 * half_sine * half_sine));
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace welkin::lobe::cases

@@ -25,8 +25,8 @@ struct ZonalTail {
 };
 WELKIN_API ZonalTail zonal_tail(const std::vector<double>& coefficients);
 
-/// The least degree L such that no |λ_l| of L < l ≤ 2L + 16 is above `tolerance`; `most` where that is
+/// The least degree L such that no |λ_l| of L < l ≤ 2L + 16 is above `tolerance`; `max_degree` where that is
 /// smaller. A lobe cut at the horizon decays as l^−2.5 there, a smooth one exponentially.
-WELKIN_API int degree_for(const AnyLobe& lobe, double tolerance, int most);
+WELKIN_API int degree_for(const AnyLobe& lobe, double tolerance, int max_degree);
 
 }  // namespace welkin::lobe

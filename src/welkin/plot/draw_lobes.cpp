@@ -126,9 +126,9 @@ void draw_curve(Image& picture, const AnyLobe& lobe, const Frame& frame, const R
     for (int y = std::max(static_cast<int>(std::min(a.y, b.y) - half_width - 1), 0); y <= low; ++y) {
       for (int x = static_cast<int>(a.x - half_width - 1); x <= right; ++x) {
         const double here = half_width + 0.5 - distance({x + 0.5, y + 0.5}, a, b);
-        float& most = cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width()) +
-                            static_cast<std::size_t>(x)];
-        most = std::max(most, static_cast<float>(here));
+        float& maximum = cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width()) +
+                               static_cast<std::size_t>(x)];
+        maximum = std::max(maximum, static_cast<float>(here));
       }
     }
   }

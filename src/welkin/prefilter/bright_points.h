@@ -6,8 +6,8 @@
 
 namespace welkin::prefilter {
 
-/// Points that are removed from the grid and summed exactly: the rest has less range, so the truncation error of
-/// a finite degree is small relative to dark directions too.
+/// Points that are removed from the grid and summed exactly: the rest has less range, so the truncation error
+/// of a finite degree is small relative to dark directions too.
 struct BrightPoints {
   std::vector<float> x, y, z;  ///< directions in the source's frame
   std::vector<float> weight;   ///< channels values each, sr · radiance

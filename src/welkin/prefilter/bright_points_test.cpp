@@ -78,7 +78,7 @@ TEST(BrightPoints, TheLargestAreRemovedFromTheGrid) {
     rule.always = rule.maximum = always;
     const BrightPoints points = take_bright_points(grid, rule, {});
     ASSERT_EQ(points.count(), always);
-    double least = 1e30, left = 0;
+    double minimum = 1e30, left = 0;
     for (int i = 0; i < points.count(); ++i) {
       const std::size_t k = static_cast<std::size_t>(i);
       const double theta = std::acos(static_cast<double>(points.y[k]));
@@ -95,13 +95,13 @@ TEST(BrightPoints, TheLargestAreRemovedFromTheGrid) {
         size = std::max(
             size, std::fabs(static_cast<double>(points.weight[k * kChannels + static_cast<std::size_t>(c)])));
       }
-      least = std::min(least, size);
+      minimum = std::min(minimum, size);
     }
     for (std::size_t i = 0; i < grid.lanes.size(); ++i) {
       EXPECT_EQ(grid.lanes.data()[i], before.lanes.data()[i]);
       left = std::max(left, std::fabs(static_cast<double>(grid.lanes.data()[i])));
     }
-    EXPECT_GE(least, left);
+    EXPECT_GE(minimum, left);
   }
 }
 

@@ -58,10 +58,11 @@ double bound(int length) {
 TEST(Fft, TakesProductsOfTwoThreeAndFive) {
   for (const int length : kLengths) EXPECT_TRUE(fft_takes(length)) << length;
   for (const int length : {-4, 0, 7, 11, 14, 22, 49, 1001}) EXPECT_FALSE(fft_takes(length)) << length;
-  for (int least = 1; least < 3000; ++least) {
-    const int length = fft_length(least);
-    EXPECT_TRUE(length >= least && length % 4 == 0 && fft_takes(length)) << least;
-    for (int smaller = (least + 3) / 4 * 4; smaller < length; smaller += 4) EXPECT_FALSE(fft_takes(smaller));
+  for (int minimum = 1; minimum < 3000; ++minimum) {
+    const int length = fft_length(minimum);
+    EXPECT_TRUE(length >= minimum && length % 4 == 0 && fft_takes(length)) << minimum;
+    for (int smaller = (minimum + 3) / 4 * 4; smaller < length; smaller += 4)
+      EXPECT_FALSE(fft_takes(smaller));
   }
 }
 

@@ -45,8 +45,8 @@ bool has_plain_rows(const AnyParameterization& source, ChartSize size) {
   return source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width);
 }
 
-/// So many rows locate a sun precisely enough for dark directions that have it on their horizon, however wide the
-/// lobe.
+/// So many rows locate a sun precisely enough for dark directions that have it on their horizon, however wide
+/// the lobe.
 constexpr int kSunRows = 450;
 
 /// How many columns of the picture can be one of the grid's, a power of two, so that `minimum` are left.

@@ -188,8 +188,8 @@ TEST(PointGrid, DependOnNothingButTheMap) {
   }
 }
 
-/// A texel at a disc's rim is weighted by the part of it within: a constant picture measures as much as the map
-/// covers.
+/// A texel at a disc's rim is weighted by the part of it within: a constant picture measures as much as the
+/// map covers.
 TEST(PointGrid, DiscsMeasureWhatTheyCover) {
   for (const char* name : {"angular", "fisheye-equidistant", "half-cube", "paraboloid", "hemi-octahedral"}) {
     Map map = make_map(name, 32);

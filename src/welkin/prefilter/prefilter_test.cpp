@@ -74,8 +74,8 @@ TEST(Prefilter, DiscsAreSummedUpToTheirRims) {
     compare(s, kTargets[which++], 0, 7);
 }
 
-/// A sun ten million times as bright as the rest, for directions that have it on their horizon: there its contribution is small, and
-/// the rest is dark.
+/// A sun ten million times as bright as the rest, for directions that have it on their horizon: there its
+/// contribution is small, and the rest is dark.
 TEST(Prefilter, SunsMayStandOnTheHorizon) {
   Map source = filled("latlong", 1024, 512, 0.01f);
   for (const int y : {227, 228}) {

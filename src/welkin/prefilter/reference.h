@@ -12,8 +12,9 @@ namespace welkin {
 
 /// Pre-filtering by brute force in float64: for any direction, the sum over all the source's texels of
 /// radiance times the integral of the lobe over the texel. The definition itself, as far as quadrature goes:
-/// four points to a texel, more where a rim or a kink goes through it (texel_points.h), and texels near the direction subdivided until a piece is a tenth as wide as the lobe's local scale.
-/// Relative error 1e-6 of the sum.
+/// four points to a texel, more where a rim or a kink goes through it (texel_points.h), and texels near the
+/// direction subdivided until a piece is a tenth as wide as the lobe's local scale. Relative error 1e-6 of
+/// the sum.
 class PrefilterReference {
  public:
   /// Keeps a copy of what it needs of the source: 144 + 4 · channels bytes for each texel, and about 10 kB

@@ -84,7 +84,7 @@ Distance distance(const float* values, const double* wanted, const std::vector<s
 }
 
 ReferenceErrors errors_of(const Map& level, const Compared& compared, const std::vector<double>& wanted,
-                          double least) {
+                          double minimum) {
   const std::vector<std::size_t> channels = measured_channels(level);
   ReferenceErrors errors;
   errors.random_texels = static_cast<int>(compared.random);
@@ -99,7 +99,7 @@ ReferenceErrors errors_of(const Map& level, const Compared& compared, const std:
       error_squares += omega * d.error * d.error;
       squares += omega * d.wanted * d.wanted;
     }
-    const double relative = ratio(d.error, std::max(d.wanted, least));
+    const double relative = ratio(d.error, std::max(d.wanted, minimum));
     if (exceeds(relative, errors.maximum)) {
       errors.maximum = relative;
       errors.maximum_direction = compared.directions[i];

@@ -255,15 +255,15 @@ TEST(VerifyTexels, TheHotAreAllAboveTheirShareAndSpread) {
   options.most_hot = 16;
   const auto texels = prefilter::hot_texels(level, {}, options);
   ASSERT_EQ(texels.size(), 16u);
-  float least = 1e9f, most = 0;
+  float minimum = 1e9f, maximum = 0;
   for (const prefilter::Texel& t : texels) {
     const float value = *level.level.chart(t.chart).at(t.x, t.y);
-    least = std::min(least, value);
-    most = std::max(most, value);
+    minimum = std::min(minimum, value);
+    maximum = std::max(maximum, value);
   }
-  EXPECT_EQ(most, 1024);
-  EXPECT_GE(least, 512);
-  EXPECT_LT(least, 560);
+  EXPECT_EQ(maximum, 1024);
+  EXPECT_GE(minimum, 512);
+  EXPECT_LT(minimum, 560);
   options.most_hot = 10000;
   EXPECT_EQ(prefilter::hot_texels(level, {}, options).size(), 513u);
   // A light besides.
@@ -305,7 +305,8 @@ TEST(VerifyEnergy, FejersRuleIsExactForPolynomials) {
   }
 }
 
-/// The grid integrates the lobe about any axis of the world, and so any sum of them. verify_energy.h states 2e-5.
+/// The grid integrates the lobe about any axis of the world, and so any sum of them. verify_energy.h states
+/// 2e-5.
 TEST(VerifyEnergy, TheGridResolvesEveryLobeItTakes) {
   const std::vector<Vec3d> axes{{0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0.3, 0.8, -0.5}, {0.001, -1, 0}};
   const Matrix3 orientation = prefilter::energy_grid_orientation();
@@ -333,7 +334,8 @@ TEST(VerifyEnergy, TheGridResolvesEveryLobeItTakes) {
   EXPECT_GT(taken, 10);
 }
 
-/// Narrow lobes at the source's own texels, by the reference: texels of 7°, for which verify_energy.h states 5e-4.
+/// Narrow lobes at the source's own texels, by the reference: texels of 7°, for which verify_energy.h states
+/// 5e-4.
 TEST(VerifyEnergy, TheSourcesTexelsAddUpForNarrowLobes) {
   for (const char* spec : {"ggx,roughness=0.125"}) {
     const AnyLobe lobe = AnyLobe::make(spec);

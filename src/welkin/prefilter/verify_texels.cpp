@@ -79,11 +79,11 @@ std::vector<Texel> hot_texels(const Map& level, const std::vector<Vec3d>& lights
     std::int64_t index;
   };
   std::vector<Hot> hot;
-  const auto least = static_cast<float>(options.hot) * maximum;
+  const auto minimum = static_cast<float>(options.hot) * maximum;
   for (std::int64_t i = 0; i < all; ++i) {
     const Texel texel = texel_at(level, i);
     const float value = luminance(values_of(level, texel));
-    if (value >= least && is_valid_texel(level, texel)) hot.push_back({value, i});
+    if (value >= minimum && is_valid_texel(level, texel)) hot.push_back({value, i});
   }
   std::stable_sort(hot.begin(), hot.end(),
                    [](const Hot& a, const Hot& b) { return a.luminance > b.luminance; });

@@ -60,10 +60,11 @@ int degree_of(const std::vector<double>& zonal, double tolerance) {
 
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   const int finest = std::clamp(static_cast<int>(kPi / texel), 1, kMaxDegree / 4);
-  const int most = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMaxDegree);
-  int known = std::min(most, 4 * finest + 192);
+  const int max_degree = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMaxDegree);
+  int known = std::min(max_degree, 4 * finest + 192);
   std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
-  // A lobe with a step or a kink falls off slowly: degrees up to where it is negligible, or up to a limit of cost.
+  // A lobe with a step or a kink falls off slowly: degrees up to where it is negligible, or up to a limit of
+  // cost.
   while (known < 768 && degree_of(zonal, tolerance) > known * 9 / 10) {
     known *= 2;
     zonal = lobe::zonal_coefficients(lobe, known);

@@ -24,7 +24,8 @@ struct WidenedLobe {
 /// are left out (see degree_of). Not for mirrors.
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance);
 
-/// Degrees that are cheap: up to here coefficients are kept that matter twenty times less, since a cut at the horizon falls off slowly and bright lights show in dark directions.
+/// Degrees that are cheap: up to here coefficients are kept that matter twenty times less, since a cut at the
+/// horizon falls off slowly and bright lights show in dark directions.
 inline constexpr int kCheapDegree = 160;
 
 /// The least degree for which what is left out of the lobe is, in the mean square over the sphere, a

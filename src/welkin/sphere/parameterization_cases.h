@@ -130,13 +130,13 @@ inline double distance(const Vec3d& a, const Vec3d& b) {
 template <class P>
 double wobble(const P& p, int chart, double u, double v, double error) {
   const Vec3d d = p.to_sphere(chart, u, v);
-  double most = 0;
+  double maximum = 0;
   for (const double du : {-error, 0.0, error}) {
     for (const double dv : {-error, 0.0, error}) {
-      most = std::max(most, distance(d, p.to_sphere(chart, u + du, v + dv)));
+      maximum = std::max(maximum, distance(d, p.to_sphere(chart, u + du, v + dv)));
     }
   }
-  return most;
+  return maximum;
 }
 
 /// The partial derivatives of the direction by u and v, by central differences.

@@ -84,10 +84,10 @@ void parse_shape(const Fields& fields, const Source& source, Header& header) {
   header.height = static_cast<int>(std::max(height, 1u));
 
   const std::uint32_t stated = fields.word(at::levels);
-  const auto most = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
-  if (stated > most) {
+  const auto maximum = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
+  if (stated > maximum) {
     fields.fail(std::to_string(stated) + " levels, of which " + std::to_string(width) + "×" +
-                    std::to_string(height) + " has at most " + std::to_string(most),
+                    std::to_string(height) + " has at most " + std::to_string(maximum),
                 at::levels);
   }
   header.asks_for_levels = stated == 0;

@@ -89,12 +89,12 @@ class Pictures {
     if (header.faces == 6 && header.width != header.height)
       throw Error(ErrorKind::unsupported,
                   "the faces of a cube must be square, not " + size_text(header.width, header.height));
-    const auto most = static_cast<std::size_t>(
+    const auto maximum = static_cast<std::size_t>(
         std::bit_width(static_cast<unsigned>(std::max(header.width, header.height))));
-    if (header.levels.size() > most)
+    if (header.levels.size() > maximum)
       throw Error(ErrorKind::bad_request, std::to_string(header.levels.size()) + " levels, of which " +
                                               size_text(header.width, header.height) + " has at most " +
-                                              std::to_string(most));
+                                              std::to_string(maximum));
     for (std::size_t level = 0; level < header.levels.size(); ++level) {
       const int width = header.width_of(level), height = header.height_of(level);
       for (std::size_t i = 0; i < of_level_; ++i) {

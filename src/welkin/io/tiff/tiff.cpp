@@ -129,14 +129,15 @@ class TiffReader : public Reader {
 
   /// Decodes all blocks of a plane, one after the other, into one buffer.
   void read_blocks(const TiffPage& page, int plane, const std::function<void(const Block&)>& use) {
-    const tmsize_t most = page.tiled ? TIFFTileSize(tiff_.get()) : TIFFStripSize(tiff_.get());
+    const tmsize_t maximum = page.tiled ? TIFFTileSize(tiff_.get()) : TIFFStripSize(tiff_.get());
     const tmsize_t row = page.tiled ? TIFFTileRowSize(tiff_.get()) : TIFFScanlineSize(tiff_.get());
     const std::size_t pixel_bytes = stored_pixel_bytes(page);
-    if (most <= 0 || row < static_cast<tmsize_t>(pixel_bytes * static_cast<std::size_t>(page.block_width)) ||
-        row * page.block_height > most) {
+    if (maximum <= 0 ||
+        row < static_cast<tmsize_t>(pixel_bytes * static_cast<std::size_t>(page.block_width)) ||
+        row * page.block_height > maximum) {
       fail("its blocks are malformed");
     }
-    std::vector<std::byte> samples(static_cast<std::size_t>(most));
+    std::vector<std::byte> samples(static_cast<std::size_t>(maximum));
     for (int y = 0; y < page.part.height; y += page.block_height) {
       for (int x = 0; x < page.part.width; x += page.block_width) {
         const Block block{samples.data(),
