@@ -28,7 +28,7 @@ int main() {
     const auto timings = time_jobs(
         {[&] { resample(source, target, bilinear); }, [&] { resample(source, target, automatic); }}, 7);
     const double texels = 1e-6 * target.charts() * size.width * size.height;
-    table.row({(name == "latlong" ? "latlong, turned" : name),
+    table.row({(name == "latlong" ? "latlong, rotated" : name),
                std::to_string(target.charts()) + " × " + std::to_string(size.width) + "×" +
                    std::to_string(size.height),
                fixed(1e3 * timings[0].median().cpu / texels, 1),

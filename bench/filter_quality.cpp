@@ -20,7 +20,7 @@ constexpr int kSamples = 32;  ///< squared, to a texel
 
 using Color = std::array<double, 3>;
 
-/// The bilinear interpolation of a lat-long, in float64, at a place in 0…1.
+/// The bilinear interpolation of a lat-long, in float64, at a position in 0…1.
 Color interpolate(const Map& map, double u, double v) {
   const double x = u * map.width() - 0.5, y = v * map.height() - 0.5;
   const double left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
@@ -62,11 +62,12 @@ Sums measure_texel(const Map& source, const Map& target, int face, int x, int y)
     const double u = (x + (k % kSamples + 0.5) / kSamples) / kFace,
                  v = (y + (k / kSamples + 0.5) / kSamples) / kFace;
     const double density = t.solid_angle_density(face, u, v);
-    const auto place = s.from_sphere(t.to_sphere(face, u, v));
-    const Color value = interpolate(source, place.u, place.v);
+    const auto position = s.from_sphere(t.to_sphere(face, u, v));
+    const Color value = interpolate(source, position.u, position.v);
     for (std::size_t c = 0; c < 3; ++c) sum[c] += density * value[c];
     weight += density;
-    const double radius = std::hypot((place.u - 0.5) * source.width(), (place.v - 0.5) * source.height());
+    const double radius =
+        std::hypot((position.u - 0.5) * source.width(), (position.v - 0.5) * source.height());
     fine = fine && radius > source.width() / 8.0;
   }
   Sums sums;

@@ -59,11 +59,11 @@ Seconds Timing::median() const {
 }
 
 Seconds Timing::best() const {
-  const auto lowest = [&](double Seconds::*member) {
+  const auto minimum = [&](double Seconds::*member) {
     const std::vector<double> values = column(runs, member);
     return *std::min_element(values.begin(), values.end());
   };
-  return {lowest(&Seconds::cpu), lowest(&Seconds::wall)};
+  return {minimum(&Seconds::cpu), minimum(&Seconds::wall)};
 }
 
 std::vector<Timing> time_jobs(const std::vector<std::function<void()>>& jobs, int rounds) {

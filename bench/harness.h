@@ -9,7 +9,7 @@
 /// How the benchmarks time, and how they print. Results go to standard output as Markdown tables.
 namespace welkin::bench {
 
-/// Holds TBB to two threads, or to WELKIN_BENCH_THREADS of them, as long as it lives.
+/// Limits TBB to two threads, or to WELKIN_BENCH_THREADS of them, as long as it lives.
 class Threads {
  public:
   Threads();

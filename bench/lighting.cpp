@@ -43,33 +43,33 @@ NamedMap soft_box() {
           })};
 }
 
-struct Place {
+struct Texel {
   int chart, x, y;
 };
 
-struct ComparedPlaces {
-  std::vector<Place> places;  ///< those by chance first
+struct ComparedTexels {
+  std::vector<Texel> texels;  ///< the random ones first
   std::size_t random;
 };
 
-ComparedPlaces compared_places(const Map& level) {
-  std::vector<Place> all;
+ComparedTexels compared_texels(const Map& level) {
+  std::vector<Texel> all;
   for (int chart = 0; chart < level.charts(); ++chart) {
     for (int y = 0; y < level.height(); ++y) {
       for (int x = 0; x < level.width(); ++x) all.push_back({chart, x, y});
     }
   }
-  ComparedPlaces compared;
-  std::sample(all.begin(), all.end(), std::back_inserter(compared.places), 300, std::mt19937(1));
-  compared.random = compared.places.size();
+  ComparedTexels compared;
+  std::sample(all.begin(), all.end(), std::back_inserter(compared.texels), 300, std::mt19937(1));
+  compared.random = compared.texels.size();
   const std::ptrdiff_t hot = std::min<std::ptrdiff_t>(100, static_cast<std::ptrdiff_t>(all.size()));
-  const auto brightness = [&](const Place& p) {
+  const auto brightness = [&](const Texel& p) {
     const float* values = level.level.chart(p.chart).at(p.x, p.y);
     return std::accumulate(values, values + level.channels(), 0.0f);
   };
   std::partial_sort(all.begin(), all.begin() + hot, all.end(),
-                    [&](const Place& a, const Place& b) { return brightness(a) > brightness(b); });
-  compared.places.insert(compared.places.end(), all.begin(), all.begin() + hot);
+                    [&](const Texel& a, const Texel& b) { return brightness(a) > brightness(b); });
+  compared.texels.insert(compared.texels.end(), all.begin(), all.begin() + hot);
   return compared;
 }
 
@@ -113,22 +113,22 @@ PrefilterShape shape_of(const Map& map) {
 }
 
 LevelErrors errors_of(const PrefilterReference& reference, const Map& level, const lobe::AnyLobe& lobe) {
-  const auto [places, random] = compared_places(level);
+  const auto [texels, random] = compared_texels(level);
   const std::size_t channels = static_cast<std::size_t>(level.channels());
   const Matrix3 to_world = transpose(level.orientation);
   std::vector<Vec3d> directions;
   std::vector<double> omega;
-  for (const Place& p : places) {
+  for (const Texel& p : texels) {
     const double u = (p.x + 0.5) / level.width(), v = (p.y + 0.5) / level.height();
     directions.push_back(to_world * level.parameterization.to_sphere(p.chart, u, v));
     omega.push_back(level.parameterization.solid_angle_density(p.chart, u, v));
   }
-  std::vector<double> wanted(places.size() * channels);
+  std::vector<double> wanted(texels.size() * channels);
   reference.evaluate(lobe, directions, wanted);
   LevelErrors errors;
   double error_squares = 0, squares = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const float* values = level.level.chart(places[i].chart).at(places[i].x, places[i].y);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const float* values = level.level.chart(texels[i].chart).at(texels[i].x, texels[i].y);
     double error = 0, size = 0;
     for (std::size_t c = 0; c < channels; ++c) {
       const double right = wanted[i * channels + c], wrong = static_cast<double>(values[c]) - right;

@@ -17,7 +17,7 @@ struct NamedMap {
 /// high_dynamic_range's map at width × width/2: as it is where it has that size, else detailed_picture.
 Map lighting_picture(int width);
 
-/// Built-in maps of 1024×512 that look like places: studio, sky, room, lamps, sun.
+/// Built-in maps of 1024×512 that resemble real environments: studio, sky, room, lamps, sun.
 std::vector<NamedMap> built_in_lighting();
 
 /// Maps of 1024×512 that are hard to filter: a sun of 0.5° and 1e5 on 0.1, high, on the horizon and near the
@@ -34,8 +34,8 @@ struct LevelErrors {
   double maximum = 0;  ///< of |error| / |reference|
 };
 
-/// A level's texels against brute force with the lobe, all channels together: the RMSE over 300 texels by
-/// chance, weighted by solid angle, and the maximum over these and the 100 that are brightest.
+/// A level's texels against brute force with the lobe, all channels together: the RMSE over 300 random
+/// texels, weighted by solid angle, and the maximum over these and the 100 that are brightest.
 LevelErrors errors_of(const PrefilterReference& reference, const Map& level, const lobe::AnyLobe& lobe);
 
 /// `0.0123 / 0.38`: in percent.

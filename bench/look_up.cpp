@@ -1,5 +1,4 @@
-// What a look-up along one direction costs, alone and among many, beside the loop that Sampler took the place
-// of.
+// What a look-up along one direction costs, alone and among many, beside the loop that Sampler replaced.
 
 #include <cstdio>
 #include <random>
@@ -69,11 +68,11 @@ void float64_loop(const Map& map, std::span<const Vec3d> directions, std::span<f
     bool covered[kBatch];
     for (std::size_t i = 0; i < sphere::padded(count); ++i) {
       const Vec3d d = map.orientation * normalize(directions[from + std::min(i, count - 1)]);
-      const auto place = map.parameterization.from_sphere(d);
+      const auto position = map.parameterization.from_sphere(d);
       covered[i] = map.parameterization.covers(d);
-      chart[i] = static_cast<float>(place.chart);
-      u[i] = static_cast<float>(place.u);
-      v[i] = static_cast<float>(place.v);
+      chart[i] = static_cast<float>(position.chart);
+      u[i] = static_cast<float>(position.u);
+      v[i] = static_cast<float>(position.v);
     }
     fetch(view, chart, u, v, values.data(), count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -132,7 +131,7 @@ void print_one_and_many(const Directions& directions) {
       "thread, "
       "the best of 64 rounds of 4096 directions: alone (one call for each) and among many (one call for "
       "all). *Float64 "
-      "loop* is what `Sampler` took the place of. *Own levels*: each direction at a random level of the "
+      "loop* is what `Sampler` replaced. *Own levels*: each direction at a random level of the "
       "pyramid.");
   const Table table({"map", "float64 loop, alone", "many", "`Sampler`, alone", "many", "double, alone",
                      "many", "own levels, many", "target", "met"});

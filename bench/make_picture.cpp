@@ -23,10 +23,10 @@ int main(int argc, char** argv) try {
   const int width = std::stoi(argv[2]);
   const bool is_tiff = path.extension() == ".tif", is_exr = path.extension() == ".exr";
   Map map = is_tiff || is_exr ? bench::detailed_picture(width) : bench::lighting_picture(width);
-  const float highest = is_tiff ? 0.75f : std::numeric_limits<float>::max();
+  const float maximum = is_tiff ? 0.75f : std::numeric_limits<float>::max();
   for (int y = 0; y < map.height(); ++y) {
     float* row = map.level.chart(0).row(y);
-    for (int i = 0; i < 3 * map.width(); ++i) row[i] = std::clamp(row[i], 0.0f, highest);
+    for (int i = 0; i < 3 * map.width(); ++i) row[i] = std::clamp(row[i], 0.0f, maximum);
   }
   const io::WritePart part{"", map.level.chart(0), {"R", "G", "B"}};
   io::WriteOptions options;

@@ -1,5 +1,5 @@
-// How far pre-filtered levels are from brute force in float64, on maps that look like places and on hostile
-// ones.
+// How far pre-filtered levels are from brute force in float64, on maps that resemble real environments and on
+// hostile ones.
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ int main() {
   paragraph(
       "1024×512 to the same chain of 9 levels, with the default tolerance: relative RMSE % / maximum % at "
       "each "
-      "roughness, against brute force over all texels in float64. The RMSE is over 300 texels by chance (all "
+      "roughness, against brute force over all texels in float64. The RMSE is over 300 random texels (all "
       "of "
       "small levels), the maximum also over the 100 brightest; both over the three channels together. "
       "*Energy*: how far a filtered level's integral is from the source's, relatively; *of level 0*: the "

@@ -40,7 +40,7 @@ std::size_t values_of(const Map& map) {
          static_cast<std::size_t>(map.height()) * static_cast<std::size_t>(map.channels());
 }
 
-/// One pass over a map: the sum of its values, which nobody needs.
+/// One pass over a map: the sum of its values, which is not used.
 void read_once(const Map& map, std::vector<float>& sums) {
   parallel_for(map.height(), [&](int y) {
     constexpr std::size_t kLanes = 16;

@@ -1,5 +1,5 @@
-// How long it takes to resample a lat-long to a cube, beside the same texels fetched at places that are known
-// beforehand, and how exact those places are.
+// How long it takes to resample a lat-long to a cube, beside the same texels fetched at positions that are
+// known beforehand, and how exact those positions are.
 //
 // resample_speed                     prints the tables
 // resample_speed gather WIDTH FACE   prints the CPU seconds of the latter alone, from a lat-long so wide
@@ -25,10 +25,10 @@ constexpr int kTileWidth = 32, kTileHeight = 8;
 constexpr std::size_t kTileTexels = kTileWidth * kTileHeight;
 
 /// Where every texel of the target lies in the source, tile after tile, as the float kernels find it.
-struct Places {
+struct Positions {
   std::vector<float> chart, u, v;
 
-  Places(const Map& source, const Map& target) {
+  Positions(const Map& source, const Map& target) {
     const std::size_t texels = static_cast<std::size_t>(target.charts()) *
                                static_cast<std::size_t>(target.width()) *
                                static_cast<std::size_t>(target.height());
@@ -58,17 +58,18 @@ struct Places {
   }
 };
 
-/// The floor: the library's own bilinear kernel at places that lie ready in memory, and the result written.
-void gather(const Map& source, const Places& places, Map& target) {
+/// The floor: the library's own bilinear kernel at positions that lie ready in memory, and the result
+/// written.
+void gather(const Map& source, const Positions& positions, Map& target) {
   const Fetch fetch = fetch_kernels(3).bilinear;
   const LevelView view = view_of(source.level);
   const int across = target.width() / kTileWidth;
-  parallel_for(static_cast<int>(places.u.size() / kTileTexels) / across, [&](int band) {
+  parallel_for(static_cast<int>(positions.u.size() / kTileTexels) / across, [&](int band) {
     float pixels[kTileTexels * 3 + 8];
     for (int tile = band * across; tile < (band + 1) * across; ++tile) {
       const std::size_t from = static_cast<std::size_t>(tile) * kTileTexels;
-      fetch(view, &places.chart[from], &places.u[from], &places.v[from], pixels, kTileTexels);
-      const auto [face, x, y] = Places::corner(target, tile);
+      fetch(view, &positions.chart[from], &positions.u[from], &positions.v[from], pixels, kTileTexels);
+      const auto [face, x, y] = Positions::corner(target, tile);
       for (int row = 0; row < kTileHeight; ++row) {
         std::memcpy(target.level.chart(face).at(x, y + row), pixels + row * kTileWidth * 3,
                     kTileWidth * 3 * sizeof(float));
@@ -78,71 +79,71 @@ void gather(const Map& source, const Places& places, Map& target) {
 }
 
 /// Source texels between where the float kernels find a texel and where float64 does.
-struct PlaceError {
-  double rms = 0, highest = 0;
+struct PositionError {
+  double rms = 0, maximum = 0;
 };
 
-PlaceError place_error(const Map& source, const Map& target, const Places& places) {
+PositionError position_error(const Map& source, const Map& target, const Positions& positions) {
   const auto &t = target.parameterization, &s = source.parameterization;
-  const int tiles = static_cast<int>(places.u.size() / kTileTexels);
-  std::vector<double> sums(static_cast<std::size_t>(tiles)), highest(sums.size());
+  const int tiles = static_cast<int>(positions.u.size() / kTileTexels);
+  std::vector<double> sums(static_cast<std::size_t>(tiles)), maximum(sums.size());
   parallel_for(tiles, [&](int tile) {
-    const auto [face, x0, y0] = Places::corner(target, tile);
+    const auto [face, x0, y0] = Positions::corner(target, tile);
     for (std::size_t i = 0; i < kTileTexels; ++i) {
       const double u = (x0 + static_cast<int>(i) % kTileWidth + 0.5) / target.width();
       const double v = (y0 + static_cast<int>(i) / kTileWidth + 0.5) / target.height();
       const auto exact = s.from_sphere(t.to_sphere(face, u, v));
       const std::size_t at = static_cast<std::size_t>(tile) * kTileTexels + i;
-      double du = std::fabs(static_cast<double>(places.u[at]) - exact.u);
+      double du = std::fabs(static_cast<double>(positions.u[at]) - exact.u);
       du = std::min(du, 1 - du);  // the left edge is the right edge
-      const double dv = std::fabs(static_cast<double>(places.v[at]) - exact.v);
+      const double dv = std::fabs(static_cast<double>(positions.v[at]) - exact.v);
       const double error = std::hypot(du * source.width(), dv * source.height());
       sums[static_cast<std::size_t>(tile)] += error * error;
-      highest[static_cast<std::size_t>(tile)] = std::max(highest[static_cast<std::size_t>(tile)], error);
+      maximum[static_cast<std::size_t>(tile)] = std::max(maximum[static_cast<std::size_t>(tile)], error);
     }
   });
   double sum = 0;
   for (const double each : sums) sum += each;
-  return {std::sqrt(sum / static_cast<double>(places.u.size())),
-          *std::max_element(highest.begin(), highest.end())};
+  return {std::sqrt(sum / static_cast<double>(positions.u.size())),
+          *std::max_element(maximum.begin(), maximum.end())};
 }
 
 using Row = std::vector<std::string>;
 
-/// Prints the row of times, and returns the row about places. most_cpu: seconds, or 0 for a size that is not
-/// judged by itself.
-Row run_size(int width, int face, double most_cpu, const Table& times) {
+/// Prints the row of times, and returns the row about positions. max_cpu: seconds, or 0 for a size that is
+/// not judged by itself.
+Row run_size(int width, int face, double max_cpu, const Table& times) {
   const Map source = noise_picture(width, width / 2);
   const auto cube = sphere::AnyParameterization::make("cube");
   Map target(cube, face, face, 3), fetched(cube, face, face, 3);
-  const Places places(source, target);
+  const Positions positions(source, target);
   ResampleOptions options;
   options.filter = Filter::bilinear;
   std::vector<float> from(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) * 3, 1.0f),
       to(from);
   const auto timings =
-      time_jobs({[&] { resample(source, target, options); }, [&] { gather(source, places, fetched); },
+      time_jobs({[&] { resample(source, target, options); }, [&] { gather(source, positions, fetched); },
                  [&] { std::memcpy(to.data(), from.data(), from.size() * sizeof(float)); }},
                 11);
   const double over_floor = ratio(timings[0], timings[1]);
   const std::string work =
       std::to_string(width) + "×" + std::to_string(width / 2) + " → cube 6×" + std::to_string(face);
-  const bool judged = most_cpu > 0;
-  const bool fast = over_floor <= 1.5 && (!judged || timings[0].median().cpu <= most_cpu);
+  const bool judged = max_cpu > 0;
+  const bool fast = over_floor <= 1.5 && (!judged || timings[0].median().cpu <= max_cpu);
   times.row({work, cpu_cell(timings[0]), wall_cell(timings[0]), cpu_cell(timings[1]), wall_cell(timings[1]),
              fixed(over_floor, 2), cpu_cell(timings[2]),
-             (judged ? "≤ " + fixed(most_cpu, 2) + " s, " : std::string()) + "ratio ≤ 1.5", met(fast)});
-  const PlaceError error = place_error(source, target, places);
-  return {work, fixed(error.rms, 5), fixed(error.highest, 5), judged ? "0.000" : "",
-          judged ? met(error.highest < 0.0005) : ""};
+             (judged ? "≤ " + fixed(max_cpu, 2) + " s, " : std::string()) + "ratio ≤ 1.5", met(fast)});
+  const PositionError error = position_error(source, target, positions);
+  return {work, fixed(error.rms, 5), fixed(error.maximum, 5), judged ? "0.000" : "",
+          judged ? met(error.maximum < 0.0005) : ""};
 }
 
 /// CPU seconds of the floor.
 double gather_cost(int width, int face) {
   const Map source = noise_picture(width, width / 2);
   Map target(sphere::AnyParameterization::make("cube"), face, face, 3);
-  const Places places(source, target);
-  return time_jobs({[&] { gather(source, places, target); }}, 5)[0].median().cpu;
+  const Positions positions(source, target);
+  return time_jobs({[&] { gather(source, positions, target); }}, 5)[0].median().cpu;
 }
 
 }  // namespace
@@ -155,7 +156,8 @@ int main(int argc, char** argv) {
   }
   heading("Bilinear, lat-long to cube, in memory");
   paragraph(
-      "RGB float. *Gather* is the floor: the same bilinear kernel on the same threads, reading the places of "
+      "RGB float. *Gather* is the floor: the same bilinear kernel on the same threads, reading the positions "
+      "of "
       "all texels from "
       "memory instead of computing them, and writing the same result. *Copy* is one copy of the source.");
   std::vector<Row> rows;
@@ -166,7 +168,7 @@ int main(int argc, char** argv) {
     rows.push_back(run_size(8192, 2048, 0, times));
   }
   paragraph(
-      "\nHow far the places at which the source is read lie from those that float64 finds, in source "
+      "\nHow far the positions at which the source is read lie from those that float64 finds, in source "
       "texels:");
   const Table errors({"work", "rms", "max", "target", "met"});
   for (const Row& row : rows) errors.row(row);

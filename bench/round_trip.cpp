@@ -52,9 +52,9 @@ Loss loss_of(const Map& original, const Map& back, int face) {
     texel_solid_angles(p, original.width(), original.height(), 0, y, solid_angles.data());
     for (int x = 0; x < original.width(); ++x) {
       const double weight = static_cast<double>(solid_angles[static_cast<std::size_t>(x)]);
-      const auto place =
+      const auto position =
           cube.from_sphere(p.to_sphere(0, (x + 0.5) / original.width(), (y + 0.5) / original.height()));
-      const double inside = std::min({place.u, 1 - place.u, place.v, 1 - place.v}) * face;
+      const double inside = std::min({position.u, 1 - position.u, position.v, 1 - position.v}) * face;
       const float *a = original.level.chart(0).at(x, y), *b = back.level.chart(0).at(x, y);
       for (int c = 0; c < 3; ++c) {
         const double was = static_cast<double>(a[c]),
@@ -83,7 +83,7 @@ int main() {
   const Threads threads;
   const HighDynamicRange picture = high_dynamic_range();
   const Map shown = clipped(picture.map);
-  heading("There and back: lat-long, cube, lat-long");
+  heading("Round trip: lat-long, cube, lat-long");
   paragraph("Of " + picture.name + " (" + std::to_string(picture.map.width()) + "×" +
             std::to_string(picture.map.height()) +
             "). PSNR (peak 1, weighted by solid angle) is of the picture clipped to 0…1 before the trip; "

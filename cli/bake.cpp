@@ -157,7 +157,7 @@ void add_bake(CLI::App& app) {
       ->check(CLI::IsMember({"rgba32f", "rgba16f", "rgb9e5", "r11g11b10"}));
   command
       ->add_option("--normalisation", bake->normalisation,
-                   "average: a constant map stays as it is; integral: times the lobe's integral, of lambert "
+                   "average: a constant map is unchanged; integral: times the lobe's integral, of lambert "
                    "the irradiance")
       ->check(CLI::IsMember({"average", "integral"}))
       ->capture_default_str();
@@ -168,7 +168,7 @@ void add_bake(CLI::App& app) {
       ->capture_default_str();
   command->add_option(
       "--rotate", bake->rotation,
-      "Turn the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
+      "Rotate the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
   command->add_option("--convention,--to-convention", bake->convention,
                       "World of the output: three.js, blender… (`welkin list conventions`)");
   command->add_option("--exposure", bake->exposure, "Brighten by this many stops")->check(finite_number());

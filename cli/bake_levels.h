@@ -15,7 +15,7 @@ struct BakeLevels {
   std::optional<int> count;
 
   void add(CLI::App& command);
-  /// Checks all of it, as far as it needs no input, and the place where the result is written. Throws as
+  /// Checks all of it, as far as it needs no input, and the output path. Throws as
   /// check_output does.
   void parse(const std::string& out, const WriteFlags& write);
 

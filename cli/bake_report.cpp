@@ -122,8 +122,9 @@ void BakeReport::report_misses() const {
   for (std::size_t i = 0; i < verification.size(); ++i) {
     const auto& reference = verification[i].reference;
     if (!reference || reference->relative_rmse <= made->options.prefilter.tolerance) continue;
-    tell(fmt::format("welkin: {}: level {}: the relative RMSE, {:.3g} %, is above the tolerance, {:g} %\n",
-                     out, i, 100 * reference->relative_rmse, 100 * made->options.prefilter.tolerance));
+    print_message(
+        fmt::format("welkin: {}: level {}: the relative RMSE, {:.3g} %, is above the tolerance, {:g} %\n",
+                    out, i, 100 * reference->relative_rmse, 100 * made->options.prefilter.tolerance));
   }
 }
 

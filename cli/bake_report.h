@@ -8,7 +8,7 @@
 
 namespace welkin::cli {
 
-/// What `bake` tells of its work.
+/// What `bake` reports.
 struct BakeReport {
   std::string in, out;
   const BakeLevels* made = nullptr;

@@ -22,13 +22,13 @@ void check_source(const Map& source, const std::string& in) {
                             kMaxRadiance));
   }
   if (faults.negative > 0) {
-    tell(fmt::format(
+    print_message(fmt::format(
         "welkin: {}: {} texels have negative values; they darken what is filtered, at most to 0\n", in,
         faults.negative));
   }
   if (!source.parameterization.whole_world()) {
-    tell(fmt::format("welkin: {}: shows {:.1f} % of the sphere; the rest counts as black\n", in,
-                     100 * source.parameterization.coverage() / (4 * kPi)));
+    print_message(fmt::format("welkin: {}: shows {:.1f} % of the sphere; the rest is black\n", in,
+                              100 * source.parameterization.coverage() / (4 * kPi)));
   }
 }
 
@@ -39,7 +39,7 @@ Map read_bake_source(const std::string& in, const ReadFlags& flags, Faults fault
   Map source = reader.read();
   if (faults == Faults::repaired) {
     const std::uint64_t repaired = sanitize(source);
-    tell(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
+    print_message(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
   }
   check_source(source, in);
   return source;

@@ -46,11 +46,11 @@ std::optional<double> finite(const std::string& text) {
 
 }  // namespace
 
-CLI::Validator finite_number(double least) {
-  const auto check = [least](std::string& text) {
+CLI::Validator finite_number(double minimum) {
+  const auto check = [minimum](std::string& text) {
     const std::optional<double> value = finite(text);
     if (!value) return "'" + text + "' is not a number";
-    return *value < least ? fmt::format("{} is below {}", text, least) : std::string();
+    return *value < minimum ? fmt::format("{} is below {}", text, minimum) : std::string();
   };
   return CLI::Validator(check, "");
 }
@@ -115,7 +115,7 @@ void ReadFlags::add(CLI::App& command) {
                      "Parameterization of the input: NAME[:LAYOUT][,PARAMETER=VALUE] (see `welkin list`). "
                      "Default: what the file declares, else a guess from its size");
   command.add_option("--from-faces", faces,
-                     "Order and turns of the input's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
+                     "Order and quarter turns of the input's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
   command.add_option("--from-convention", convention,
                      "World of the input: three.js, blender… (`welkin list conventions`)");
   command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb")
@@ -190,7 +190,7 @@ LoadedMap ReadFlags::read(const std::string& path) const {
 
 void WriteFlags::add(CLI::App& command) {
   command.add_option("--to-faces", faces,
-                     "Order and turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
+                     "Order and quarter turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
   command.add_option("--type", type,
                      "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10 in KTX2. "
                      "Default: the format's best");
@@ -201,9 +201,9 @@ void WriteFlags::add(CLI::App& command) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command
-      .add_option(
-          "--border", border,
-          "Texels of safety border to write around every chart, for renderers that know no chart edges")
+      .add_option("--border", border,
+                  "Texels of safety border to write around every chart, for renderers that sample charts as "
+                  "plain textures")
       ->check(CLI::Range(0, 65536));
 }
 
@@ -280,7 +280,7 @@ int levels_of(const MapFileInfo& info) {
 
 void report_losses(const std::string& path, const io::WriteReport& report) {
   const auto warn = [&](std::uint64_t count, std::string_view what) {
-    if (count > 0) tell(fmt::format("welkin: {}: {} values {}\n", path, count, what));
+    if (count > 0) print_message(fmt::format("welkin: {}: {} values {}\n", path, count, what));
   };
   warn(report.above, "were above what the file can hold, and clipped");
   warn(report.below, "were negative, and are 0 in the file");

@@ -43,8 +43,8 @@ void add_synth(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_list(CLI::App& app);
 
-/// Accepts finite numbers of at least `least`.
-CLI::Validator finite_number(double least = -std::numeric_limits<double>::max());
+/// Accepts finite numbers of at least `minimum`.
+CLI::Validator finite_number(double minimum = -std::numeric_limits<double>::max());
 
 /// Text of a file or a pipe for the terminal: control characters become `?`, and a text of over `longest`
 /// bytes is cut.

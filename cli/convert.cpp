@@ -53,8 +53,8 @@ void Convert::run() const {
   const int levels = levels_for(info);
   shape = to.empty() ? shape_for_copy(info, out, levels) : parse_map_shape_for(out, to, levels);
   if (!read.level && levels < levels_of(info)) {
-    tell(fmt::format("welkin: {}: holds level 0 of the {} of {}; --level takes another\n", out,
-                     levels_of(info), in));
+    print_message(fmt::format("welkin: {}: holds level 0 of the {} of {}; --level takes another\n", out,
+                              levels_of(info), in));
   }
 
   Chain chain;
@@ -82,7 +82,7 @@ void Convert::run() const {
   }
   end_progress();
   if (sanitize)
-    tell(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
+    print_message(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
   report_losses(out, write_chain(out, chain, shape->layout, write_options));
 }
 
@@ -96,7 +96,7 @@ int Convert::levels_for(const MapFileInfo& info) const {
 
 ChartSize Convert::size_for(const Map& source, const MapShape& shape) const {
   if (!size.empty()) return parse_chart_size("--size", size, shape.parameterization);
-  // A change of format, layout or turn alone keeps the size, odd or not.
+  // A change of format, layout or faces alone keeps the size, even where it isn't square.
   const ChartSize same{source.width(), source.height()};
   if (for_chart_size(shape, same).parameterization == source.parameterization) return same;
   return default_chart_size(source, shape.parameterization);
@@ -133,16 +133,17 @@ void add_convert(CLI::App& app) {
       ->capture_default_str();
   command->add_option(
       "--rotate", convert->rotation,
-      "Turn the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
+      "Rotate the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
   command->add_option("--convention,--to-convention", convert->convention,
                       "World of the output: three.js, blender… (`welkin list conventions`)");
   command->add_option("--exposure", convert->exposure, "Brighten by this many stops")->check(finite_number());
   command->add_option("--scale", convert->scale, "Multiply radiance")->check(finite_number());
   command->add_option(
       "--fill", convert->fill,
-      "Value, one per channel, where the input shows nothing or the output has no place. Default: 0");
+      "Value, one per channel, for directions that the input doesn't show and texels outside the "
+      "output's discs and triangles. Default: 0");
   command->add_flag("--allow-ringing", convert->allow_ringing,
-                    "Let the negative weights of bicubic and lanczos show beside bright spots");
+                    "Leave the overshoot of bicubic and lanczos beside bright lights unclamped");
   command->add_flag("--sanitize", convert->sanitize,
                     "Replace NaN and infinite values by their neighbours' mean");
   convert->read.add(*command);

@@ -160,7 +160,7 @@ void add_diff(CLI::App& app) {
       "diff", "Measure how B differs from A over the sphere, also across parameterizations");
   command->add_option("A", diff->a, "Reference map")->required();
   command->add_option("B", diff->b, "Map to compare")->required();
-  command->add_option("--from-b", diff->from_b, "Parameterization of B, when --from is not its");
+  command->add_option("--from-b", diff->from_b, "Parameterization of B, where it differs from --from");
   command
       ->add_option("--filter", diff->filter,
                    "How the coarser map is read: nearest, bilinear, bicubic, lanczos")

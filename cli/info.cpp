@@ -139,7 +139,7 @@ void print_header(const std::string& path, const MapFileInfo& info) {
              info.image.colour == io::Colour::srgb ? "sRGB" : "linear");
   print_texture(info.image);
   for (const io::PartInfo& part : info.image.parts) {
-    // Faces, layers and levels of a texture are alike, save their size.
+    // Faces, layers and levels of a texture are alike, except in size.
     const bool alike = is_texture(info.image) || info.image.levels > 1;
     if (alike && (part.level > 0 || part.layer > 0 || part.face > 0)) continue;
     std::string channels;
@@ -248,7 +248,7 @@ void Info::run() const {
 void add_info(CLI::App& app) {
   auto info = std::make_shared<Info>();
   CLI::App* command =
-      app.add_subcommand("info", "Tell what a file is: format, parameterization, luminance, brightest light");
+      app.add_subcommand("info", "Describe a file: format, parameterization, luminance, brightest light");
   command->add_option("FILE", info->files, "Maps to read")->required();
   command->add_flag("--header", info->header, "Only what the header says; read no pixels");
   command->add_flag("--json", info->json, "Machine-readable, on standard output");

@@ -29,7 +29,7 @@ void list_layouts() {
 template <class Parameters>
 void print_parameters(const std::string& name, const Parameters& parameters) {
   for (const auto& p : parameters) {
-    fmt::print("{},{}=  {} ({:g} to {:g}, default {:g})\n", name, p.name, p.description, p.lowest, p.highest,
+    fmt::print("{},{}=  {} ({:g} to {:g}, default {:g})\n", name, p.name, p.description, p.minimum, p.maximum,
                p.value);
   }
 }

@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
   std::vector<std::string> topics;
   CLI::App* help = app.add_subcommand("help", "Help on a command");
   help->add_option("COMMAND", topics, "As `convert`, or `plot density`");
-  app.footer("`welkin help COMMAND` tells more. Documentation: docs/ in the source, README.md first.");
+  app.footer("`welkin help COMMAND` says more. Documentation: docs/ in the source, README.md first.");
 
   std::unique_ptr<tbb::global_control> limit;
   app.parse_complete_callback([&] {
@@ -116,7 +116,7 @@ int report(int status, const char* what) {
   cli::end_progress();
   std::fflush(stdout);
   constexpr std::size_t kLongest = 4096;
-  cli::tell(fmt::format("welkin: {}\n", cli::printable(what, kLongest)));
+  cli::print_message(fmt::format("welkin: {}\n", cli::printable(what, kLongest)));
   return status;
 }
 

@@ -77,12 +77,12 @@ struct PlotMips {
 }  // namespace
 
 void add_plot(CLI::App& app) {
-  CLI::App* plot = app.add_subcommand("plot", "Pictures of what the program knows");
+  CLI::App* plot = app.add_subcommand("plot", "Plot texel densities, lobes or a map's pyramid");
   plot->require_subcommand(1);
 
   auto density = std::make_shared<PlotDensity>();
-  CLI::App* command =
-      plot->add_subcommand("density", "Solid angle of a texel over the average: picture, least, most, ratio");
+  CLI::App* command = plot->add_subcommand(
+      "density", "Solid angle of a texel over the average: picture, minimum, maximum, ratio");
   command->add_option("OUT", density->out, "Picture to write; without it, only the numbers");
   command->add_option("--of", density->of, "Parameterization. Default: the numbers of all");
   command->add_option("--size", density->size, "Texels across a chart")

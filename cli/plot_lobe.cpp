@@ -109,8 +109,8 @@ void PlotLobe::run() {
 
 void add_plot_lobe(CLI::App& plot) {
   auto request = std::make_shared<PlotLobe>();
-  CLI::App* command = plot.add_subcommand(
-      "lobe", "Weight against angle: curves, integral, width, angles that hold the energy");
+  CLI::App* command =
+      plot.add_subcommand("lobe", "Weight against angle: curves, integral, width, energy cones");
   command->add_option("OUT", request->out, "Picture to write; without it, only the numbers");
   command
       ->add_option("--lobe", request->specs,

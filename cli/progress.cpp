@@ -30,8 +30,9 @@ class Bar {
     last_ = now;
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const int filled = static_cast<int>(fraction * 30);
-    tell(fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %", what_, "", filled, "", 30 - filled, 100 * fraction));
-    if (fraction > 0.02) tell(fmt::format(", {:.0f} s left ", seconds * (1 - fraction) / fraction));
+    print_message(
+        fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %", what_, "", filled, "", 30 - filled, 100 * fraction));
+    if (fraction > 0.02) print_message(fmt::format(", {:.0f} s left ", seconds * (1 - fraction) / fraction));
     std::fflush(stderr);
     bar_shown = true;
   }
@@ -44,7 +45,7 @@ class Bar {
 
 }  // namespace
 
-void tell(const std::string& text) {
+void print_message(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
@@ -61,7 +62,7 @@ Monitor progress_monitor(std::string what) {
 }
 
 void end_progress() {
-  if (bar_shown.exchange(false)) tell("\n");
+  if (bar_shown.exchange(false)) print_message("\n");
 }
 
 }  // namespace welkin::cli

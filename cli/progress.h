@@ -7,7 +7,7 @@
 namespace welkin::cli {
 
 /// Prints on stderr. Errors of writing there are ignored.
-void tell(const std::string& text);
+void print_message(const std::string& text);
 
 enum class ProgressMode { automatic, always, never };
 

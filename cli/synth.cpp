@@ -62,16 +62,18 @@ void add_synth(CLI::App& app) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   auto& o = synth->options;
-  command->add_option("--seed", o.seed, "lamps: which ones")->check(finite_number(0))->capture_default_str();
+  command->add_option("--seed", o.seed, "lamps: seed of the random numbers")
+      ->check(finite_number(0))
+      ->capture_default_str();
   command->add_option(
       "--frequency", o.frequency,
       "checker: cells around; lines: meridians; zoneplate: cycles per radian at −Z; lamps: how many");
   command->add_option("--angle", o.angle,
                       "Degrees. sun, sky: the sun's diameter; lines: their width; lamps: their diameter");
   command->add_option("--intensity", o.intensity, "sun: its radiance; lamps: their median; others: a factor");
-  command->add_option("--elevation", o.elevation, "sun, sky: height of the sun, degrees")
+  command->add_option("--elevation", o.elevation, "sun, sky: elevation of the sun, degrees")
       ->capture_default_str();
-  command->add_option("--azimuth", o.azimuth, "sun, sky: where the sun stands, degrees from +Z toward +X")
+  command->add_option("--azimuth", o.azimuth, "sun, sky: azimuth of the sun, degrees from +Z toward +X")
       ->capture_default_str();
   command->add_option("--background", o.background, "sun, lamps: radiance around them")
       ->capture_default_str();

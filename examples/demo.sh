@@ -85,9 +85,9 @@ mirror_ball() {
     "$1" --level "$2" --to sphere --size "$3" --rotate "$turn" --exposure "$4"
 }
 
-# matt_ball MAP SIZE: the ball whose pixels look the map up along the normal.
-matt_ball() {
-  picture ball 'matt ball' "${1%.*}-ball.png" "$1" --to fisheye-orthographic --size "$2" --rotate "$mirrored" --exposure "$exposure"
+# diffuse_ball MAP SIZE: the ball whose pixels look the map up along the normal.
+diffuse_ball() {
+  picture ball 'diffuse ball' "${1%.*}-ball.png" "$1" --to fisheye-orthographic --size "$2" --rotate "$mirrored" --exposure "$exposure"
 }
 
 # cross CHAIN LEVEL TEXELS: a level's cube, its texels as they are stored where a face has at most 128 across, and distinct
@@ -212,11 +212,11 @@ HTML
 <h2>The diffuse map</h2>
 <div class="beside"><div class="card"><div class="pair">
 HTML
-  matt_ball diffuse.ktx2 256
+  diffuse_ball diffuse.ktx2 256
   cross diffuse.ktx2 0 64
   cat <<'HTML'
 </div></div>
-<p class="faint">The same world for the Lambert lobe, the light that a matt surface gathers: the ball looks the map up along its normal.
+<p class="faint">The same world for the Lambert lobe, the light that a diffuse surface receives: the ball looks the map up along its normal.
 The map is a cube of 64×64.</p></div>
 
 <h2>How far from brute force</h2>

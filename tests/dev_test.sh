@@ -38,7 +38,7 @@ for command in "${commands[@]}"; do
   [[ -z $odd ]] || fail "packages --list $command: $odd"
 done
 
-# What each command would run is there, save what only other packages bring.
+# What each command would run is there, except what only other packages bring.
 export WELKIN_DRY_RUN=1
 for command in "${commands[@]}"; do
   ends 0 ./dev "$command"

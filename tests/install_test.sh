@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs a build to a temporary folder, moves it, and uses it as a stranger would:
+# Installs a build to a temporary folder, moves it, and uses it from a project outside the source tree:
 #   - the installed headers are those of public_headers.txt, each compiles alone, and none needs more than the standard library;
 #   - examples/ builds with find_package(welkin) against the static library and against the shared one, and every example runs;
 #   - with pkg-config too;

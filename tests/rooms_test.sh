@@ -27,7 +27,7 @@ breach() {
   breaches=$((breaches + 1))
 }
 
-# Prints the place of a room in the order, or nothing.
+# Prints the position of a room in the order, or nothing.
 place_of() {
   local i
   for i in "${!rooms[@]}"; do

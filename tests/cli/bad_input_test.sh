@@ -5,7 +5,7 @@
 # bad_input_test.sh WELKIN
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
-# 4 GB of address space is plenty for these maps, and shows who believes a header that promises more. (Sanitizers need far more.)
+# 4 GB of address space is plenty for these maps, and exposes a reader that trusts the size in a header. (Sanitizers need far more.)
 limited=false
 if (ulimit -v 4000000 && "$welkin" list) >/dev/null 2>&1; then
   ulimit -v 4000000
@@ -93,7 +93,7 @@ for file in "${files[@]}"; do
 done
 rm -f cut.* broken.*
 
-# Headers that promise the world.
+# Headers with absurd sizes.
 printf 'PF\n999999999 999999999\n-1\n' >huge.pfm
 printf 'PF\n1048576 1048576\n-1\n' >large.pfm
 printf 'PF\n100000 50000\n-1\n' >missing.pfm

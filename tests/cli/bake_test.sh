@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# bake: chains and single maps into every kind of file, held to brute force; which way the world lies in them; odd sizes, hostile maps,
+# bake: chains and single maps into every kind of file, compared with brute force; their orientation; odd sizes, hostile maps,
 # bad requests.
 #
 # bake_test.sh WELKIN
@@ -187,7 +187,7 @@ for to in octahedral cube equal-area mirror-ball cylinder,fov=170; do
   each relative_rmse 0 0.001
 done
 must synth studio part.exr --to fisheye-equidistant --size 64
-says 'part.exr: shows 50.0 % of the sphere; the rest counts as black$' bake part.exr part.ktx2 --size 16
+says 'part.exr: shows 50.0 % of the sphere; the rest is black$' bake part.exr part.ktx2 --size 16
 # Behind it there is nothing; Lambert's lobe toward the middle of a half sees nothing else.
 near "behind a fisheye" "$(sample_along part.ktx2 0,0,-1 --level 1 | awk '{ print ($1 < 1e-3) }')" 1 0
 must synth constant half.exr --to fisheye-equidistant --size 256

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What `convert` does to a map besides placing it (parameterizations_test.sh): turning, exposing, choosing channels, filling, sizing,
-# filtering, mending; the same on any number of threads and any instruction set.
+# filtering, repairing; the same on any number of threads and any instruction set.
 #
 # convert_test.sh WELKIN
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
@@ -39,7 +39,7 @@ must convert back.exr turned.exr --rotate 0,-20,0
 must convert turned.exr back.exr --rotate 0,0,-10
 same smooth.exr back.exr 0.02
 
-# A stop doubles; --scale multiplies; both do. Alpha is no light.
+# A stop doubles; --scale multiplies; both do. Alpha is not scaled.
 must convert sky.exr twice.exr --exposure 1
 must convert sky.exr scaled.exr --scale 2
 same twice.exr scaled.exr 0
@@ -54,7 +54,7 @@ must convert card.exr swapped.exr --channels B,G,R
 must convert swapped.exr same.exr --channels R,G,B
 same card.exr same.exr 0
 
-# --fill where the input shows nothing, and where the output has no place.
+# --fill where the input shows nothing, and outside the output's discs.
 must synth constant half.exr --to fisheye-equidistant --size 64
 must convert half.exr filled.exr --to latlong --size 64 --fill 0.25,0.5,0.75
 near "behind a hemisphere" "$(sample_along filled.exr 0,0,-1)" "0.25 0.5 0.75" 1e-6
@@ -121,7 +121,7 @@ for to in $("$welkin" list); do
   done
 done
 
-# NaN and infinity are counted, repaired on request, and told of.
+# NaN and infinity are counted, repaired on request, and reported.
 bits() { printf "\\x${1:6:2}\\x${1:4:2}\\x${1:2:2}\\x${1:0:2}"; }
 {
   printf 'PF\n8 4\n-1.0\n'
@@ -143,7 +143,7 @@ run convert wild.pfm wild.png
 must convert wild.pfm wild.exr
 near "NaN is kept" "$("$welkin" info wild.exr --json | number nan)" 1 0
 
-# The number of threads changes nothing, the instruction set next to nothing.
+# The number of threads changes nothing, the instruction set only rounding.
 for to in latlong cube octahedral healpix angular; do
   for options in "" "--rotate 10,20,30" "--filter lanczos" "--size 12"; do
     # shellcheck disable=SC2086

@@ -66,7 +66,7 @@ for extension in exr hdr ktx2 pfm png tif jpg webp; do
   fi
 done
 
-# What a file cannot hold is told, and clipped.
+# What a file cannot hold is clipped and reported.
 loses() { # loses PATTERN ARGUMENT…
   local pattern=$1
   shift

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What `info` tells of maps whose numbers are known beforehand, and the fields of its JSON.
+# What `info` says of maps whose numbers are known beforehand, and the fields of its JSON.
 #
 # info_test.sh WELKIN
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"

@@ -61,7 +61,7 @@ for layout in hcross vcross flat hstrip vstrip 3x2 bands openexr layers; do
     same cube.exr straight.exr 0
   done
 done
-# The order is not idle.
+# The order has an effect.
 must convert cube.exr straight.exr --from cube:hcross --from-faces nz,pz,ny,py,nx,px
 run diff cube.exr straight.exr --fail-above 0.1
 checks=$((checks + 1))

@@ -98,7 +98,7 @@ near() {
 # sample_along MAP DIRECTION [OPTION…]: the radiance, on one line.
 sample_along() { "$welkin" sample "$1" --dir "${@:2}"; }
 
-# The test card in the middle of each side (docs/conventions.md, Proving it), and those sides.
+# The test card in the middle of each side (docs/conventions.md, Checking it), and those sides.
 axes=(1,0,0 -1,0,0 0,1,0 0,-1,0 0,0,1 0,0,-1)
 declare -A card_colour=(
   [1,0,0]="0.8070 0.1912 0.1470" [-1,0,0]="0.2542 0.0284 0.0284" [0,1,0]="0.3325 0.5520 0.1441"

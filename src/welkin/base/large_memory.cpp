@@ -48,10 +48,10 @@ void give_back(std::byte* memory, std::size_t) {
 #else
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
-constexpr std::size_t kSmallest = std::size_t{64} << 10;  ///< that is cut out of a region
+constexpr std::size_t kSmallest = std::size_t{64} << 10;  ///< that is allocated in a region
 constexpr std::size_t kLargest = std::size_t{32} << 20;   ///< likewise
 constexpr std::size_t kRegion = std::size_t{64} << 20;
-constexpr std::ptrdiff_t kKept = 2;  ///< regions that nobody uses
+constexpr std::ptrdiff_t kKept = 2;  ///< unused regions that stay allocated
 
 /// Fresh pages, all zero, that begin at a huge page's boundary.
 std::byte* map_pages(std::size_t size) {
@@ -137,7 +137,7 @@ class Pool {
 
    private:
     std::map<std::size_t, std::size_t> free_{{0, kRegion}};  ///< offset → bytes
-    std::size_t touched_ = 0;                                ///< from here on nobody has had the pages yet
+    std::size_t touched_ = 0;                                ///< pages from here on were never handed out
   };
 
   std::mutex mutex_;

@@ -23,7 +23,7 @@ bool all_are(const LargeMemory& memory, std::size_t bytes, int value) {
                      [&](std::byte each) { return each == static_cast<std::byte>(value); });
 }
 
-TEST(LargeMemory, StandsOnABoundaryAndIsWritable) {
+TEST(LargeMemory, IsAlignedAndWritable) {
   for (const std::size_t size : kSizes) {
     LargeMemory memory(size, Contents::unset);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory.data()) % 64, 0u) << size;
@@ -33,8 +33,8 @@ TEST(LargeMemory, StandsOnABoundaryAndIsWritable) {
   }
 }
 
-/// Also where somebody has written before.
-TEST(LargeMemory, IsZeroWhereThatIsAsked) {
+/// Also in memory that was written before.
+TEST(LargeMemory, IsZeroWhenRequested) {
   for (int round = 0; round < 3; ++round) {
     for (const std::size_t size : kSizes) {
       LargeMemory memory(size, Contents::zero);
@@ -55,8 +55,8 @@ TEST(LargeMemory, MovesAndIsEmptyByDefault) {
   EXPECT_TRUE(all_are(none, 100000, 3));
 }
 
-/// Blocks taken and given back in any order, from several threads, keep to themselves: each still holds what
-/// was written when it was taken.
+/// Blocks allocated and freed in any order by several threads do not overlap: each still holds what was
+/// written when it was allocated.
 TEST(LargeMemory, BlocksDontOverlap) {
   std::atomic<int> damaged{0};
   const auto work = [&](unsigned seed) {

@@ -10,7 +10,7 @@
 
 namespace welkin {
 
-/// For a piece of the work: its 0…1 is from…to of the whole. Refers to `whole`, which must outlive it.
+/// Progress of a part of the work: its 0…1 is from…to of the whole. Refers to `whole`, which must outlive it.
 inline Monitor part_of(const Monitor& whole, double from, double to) {
   Monitor part;
   part.cancelled = whole.cancelled;
@@ -25,7 +25,7 @@ inline Monitor without_progress(const Monitor& monitor) {
   return {nullptr, monitor.cancelled};
 }
 
-/// body(i) for i in 0…count−1 on TBB's workers; `monitor` is told and asked after each.
+/// body(i) for i in 0…count−1 on TBB's workers; After each, `monitor` gets the progress and may cancel.
 template <class Body>
 void parallel_for(int count, const Body& body, const Monitor& monitor = {}) {
   std::atomic<int> done{0};

@@ -11,15 +11,15 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view owner, const Parameter& parameter, std::string_view text) {
   throw Error(ErrorKind::bad_request, std::string(owner) + ": " + parameter.name + "=" + std::string(text) +
-                                          " is not a number in " + number_text(parameter.lowest) + "…" +
-                                          number_text(parameter.highest) + " (" + parameter.description +
+                                          " is not a number in " + number_text(parameter.minimum) + "…" +
+                                          number_text(parameter.maximum) + " (" + parameter.description +
                                           ")");
 }
 
 }  // namespace
 
 void check_range(std::string_view owner, const Parameter& parameter, double value, std::string_view text) {
-  if (!(value >= parameter.lowest && value <= parameter.highest)) refuse(owner, parameter, text);
+  if (!(value >= parameter.minimum && value <= parameter.maximum)) refuse(owner, parameter, text);
 }
 
 Parameter parse_parameter(std::string_view owner, const std::vector<Parameter>& known,

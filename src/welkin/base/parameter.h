@@ -14,8 +14,8 @@ namespace welkin {
 struct Parameter {
   std::string name;         ///< `fov`, `roughness`
   double value = 0;         ///< now
-  double lowest = 0;        ///< the least that is allowed
-  double highest = 0;       ///< the largest that is allowed; may be infinite
+  double minimum = 0;       ///< the least that is allowed
+  double maximum = 0;       ///< the largest that is allowed; may be infinite
   std::string description;  ///< one line, with its unit
 };
 

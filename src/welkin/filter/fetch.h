@@ -22,15 +22,15 @@ struct LevelView {
 LevelView view_of(const Level& level);
 
 /// out[i·channels…] = the filtered texels at (chart[i], u[i], v[i]), i < count. Values of the arrays up to
-/// padded(count) are read (sphere::kLanes) and need not mean anything. `out` has room for count·channels + 8
+/// padded(count) are read (sphere::kLanes); their values are ignored. `out` has room for count·channels + 8
 /// values; what comes after the first count·channels is overwritten. Positions are clamped to within half a
 /// texel outside the chart, so a bad one (NaN too) reads some texel of the map and no other memory.
 using Fetch = void (*)(const LevelView& level, const float* chart, const float* u, const float* v, float* out,
                        std::size_t count);
 
 /// A kernel with negative weights. Unclamped, it overshoots beside a bright light. Clamped, a result lies at
-/// most half the range of the inner 4×4 texels beyond that range, and never below half the lowest of them, so
-/// positive radiance stays positive.
+/// most half the range of the inner 4×4 texels beyond that range, and never below half the smallest of them,
+/// so positive radiance stays positive.
 struct RingingFetch {
   Fetch unclamped;
   Fetch clamped;
@@ -53,7 +53,7 @@ FetchKernels fetch_kernels_avx2(int channels);
 /// For the best instruction set of this processor.
 FetchKernels fetch_kernels(int channels);
 
-/// The kernel of a filter for single look-ups, where there is no area to average over: `automatic` counts as
+/// The kernel of a filter for single look-ups, where there is no area to average over: `automatic` means
 /// `bicubic`.
 Fetch fetch_for(Filter filter, bool allow_ringing, int channels);
 

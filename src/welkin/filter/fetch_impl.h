@@ -37,7 +37,8 @@ struct Positions {
   Pack fx, fy;
 
   Positions(const LevelView& level, const float* charts, const float* us, const float* vs, float offset) {
-    // NaN becomes the lowest position, so every one stays inside the border; without an offset, in the chart.
+    // NaN becomes the smallest position, so every one stays inside the border; without an offset, in the
+    // chart.
     const auto locate = [offset](const float* from, int size, Pack& fraction, std::int32_t* to) {
       const Pack extent(static_cast<float>(size));
       Pack x = xsimd::fma(Pack::load_unaligned(from), extent, Pack(-offset));
@@ -174,13 +175,13 @@ struct FetchOf {
     }
   };
 
-  /// Limits an interpolated value to near the range [lowest, highest] of the texels around it: half a range
-  /// beyond on either side, and never below half the lowest, so positive radiance stays positive.
-  static Value limit_overshoot(const Value& value, const Value& lowest, const Value& highest) {
+  /// Limits an interpolated value to near the range [minimum, maximum] of the texels around it: half a range
+  /// beyond on either side, and never below half the minimum, so positive radiance stays positive.
+  static Value limit_overshoot(const Value& value, const Value& minimum, const Value& maximum) {
     const Value half(0.5f);
-    const Value margin = half * (highest - lowest);
-    const Value floor = xsimd::max(lowest - margin, xsimd::min(lowest, half * lowest));
-    const Value limited = xsimd::min(xsimd::max(value, floor), highest + margin);
+    const Value margin = half * (maximum - minimum);
+    const Value floor = xsimd::max(minimum - margin, xsimd::min(minimum, half * minimum));
+    const Value limited = xsimd::min(xsimd::max(value, floor), maximum + margin);
     return xsimd::select(value == value, limited, value);  // NaN stays NaN
   }
 
@@ -204,7 +205,7 @@ struct FetchOf {
         const float* texel = positions.template texel<C>(level, i) - kBefore * level.row_stride - kBefore * n;
         float* to = out + (start + i) * static_cast<std::size_t>(n);
         for (int c = 0; c < n; c += 4) {
-          Value sum(0.0f), lowest(3.4e38f), highest(-3.4e38f);
+          Value sum(0.0f), minimum(3.4e38f), maximum(-3.4e38f);
           for (int row = 0; row < kTaps; ++row) {
             const float* from = texel + row * level.row_stride + c;
             Value line(0.0f);
@@ -212,13 +213,13 @@ struct FetchOf {
               const Value value = Value::load_unaligned(from + column * n);
               line = xsimd::fma(Value(wx[column][i]), value, line);
               if (kClamped && row >= kInner && row < kInner + 4 && column >= kInner && column < kInner + 4) {
-                lowest = xsimd::min(lowest, value);
-                highest = xsimd::max(highest, value);
+                minimum = xsimd::min(minimum, value);
+                maximum = xsimd::max(maximum, value);
               }
             }
             sum = xsimd::fma(Value(wy[row][i]), line, sum);
           }
-          if (kClamped) sum = limit_overshoot(sum, lowest, highest);
+          if (kClamped) sum = limit_overshoot(sum, minimum, maximum);
           sum.store_unaligned(to + c);
         }
       }

@@ -82,7 +82,7 @@ TEST(FetchTest, CentresGiveTexelsAndPlanesStayPlanes) {
 TEST(FetchTest, ClampedValuesKeepToTheirBounds) {
   Map map = rendered("cube", 24, [](const Vec3d&) { return 0.0; });
   std::mt19937 random(9);
-  for_each_place(map, [&](int chart, int x, int y) {
+  for_each_valid_texel(map, [&](int chart, int x, int y) {
     *map.level.chart(chart).at(x, y) =
         random() % 5 == 0 ? 1000.0f : 0.01f * static_cast<float>(random() % 100);
   });
@@ -95,16 +95,16 @@ TEST(FetchTest, ClampedValuesKeepToTheirBounds) {
                              clamped = fetched(kernel.clamped, map, positions);
     for (std::size_t i = 0; i < kCount; ++i) {
       const auto first = [&](float at) { return static_cast<int>(std::floor(at * 24.0f - 0.5f)) - 1; };
-      float lowest = HUGE_VALF, highest = -HUGE_VALF;
+      float minimum = HUGE_VALF, maximum = -HUGE_VALF;
       for (int y = first(positions.v[i]); y < first(positions.v[i]) + 4; ++y) {
         for (int x = first(positions.u[i]); x < first(positions.u[i]) + 4; ++x) {
-          lowest = std::min(lowest, *map.level.chart(static_cast<int>(positions.chart[i])).at(x, y));
-          highest = std::max(highest, *map.level.chart(static_cast<int>(positions.chart[i])).at(x, y));
+          minimum = std::min(minimum, *map.level.chart(static_cast<int>(positions.chart[i])).at(x, y));
+          maximum = std::max(maximum, *map.level.chart(static_cast<int>(positions.chart[i])).at(x, y));
         }
       }
-      const float margin = 0.5f * (highest - lowest);
-      const float floor = std::max(lowest - margin, std::min(lowest, 0.5f * lowest));
-      const float expected = clamp(unclamped[i], floor, highest + margin);
+      const float margin = 0.5f * (maximum - minimum);
+      const float floor = std::max(minimum - margin, std::min(minimum, 0.5f * minimum));
+      const float expected = clamp(unclamped[i], floor, maximum + margin);
       ASSERT_NEAR(clamped[i], expected, 1e-4f) << positions.u[i] << "," << positions.v[i];
       any_changed = any_changed || clamped[i] != unclamped[i];
     }

@@ -10,7 +10,7 @@ namespace {
 /// keep the mean within −55 dB of exact area sampling (bench/filter_quality); four would cost 10 dB and save
 /// a tenth of the time.
 constexpr double kTexelsAcross = 8;
-constexpr int kMostTexels = 4096;  ///< of that level, under one footprint
+constexpr int kMaxTexels = 4096;  ///< of that level, under one footprint
 
 /// Samples for each texel of that level, along either axis, where a texel's area is bent or lies over an
 /// edge.
@@ -21,7 +21,7 @@ constexpr double kSamplesPerTexel = 2;
 /// trip (bench/round_trip).
 constexpr float kInterpolated = 1.25f;
 
-/// A side of a texel, at least an eighth as long as the other one: the slivers at a pole are not worth a
+/// A side of a texel, at least an eighth as long as the other one: so that thin texels at a pole do not get a
 /// sample each.
 Vec3d widened(const Vec3d& side, const Vec3d& other) {
   const double long_enough = length(other) / 8, now = length(side);
@@ -30,7 +30,7 @@ Vec3d widened(const Vec3d& side, const Vec3d& other) {
 
 }  // namespace
 
-float spread(float texels) {
+float averaged_fraction(float texels) {
   const float t = clamp(texels - kInterpolated, 0.0f, 1.0f);
   return t * t * (3 - 2 * t);
 }
@@ -54,7 +54,7 @@ double Footprint::narrow() const {
 Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_source, int chart, double x,
                        double y) {
   // Tangents on the sphere times a texel's size: differences over half a texel to each side, or less where a
-  // texel is so large that its ends come round to each other.
+  // texel is so large that its ends meet.
   const auto step = [](const sphere::AnyParameterization& p, int c, double u, double v, double texel_u,
                        double texel_v) {
     constexpr double kLongest = 1.0 / 16;
@@ -68,13 +68,13 @@ Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_s
   const Vec3d down = to_source * step(t, chart, u, v, 0, 1.0 / target.height());
 
   const auto& s = source.parameterization;
-  const auto place = s.from_sphere(to_source * t.to_sphere(chart, u, v));
-  const int source_chart = static_cast<int>(place.chart);
-  // Half a texel inside the chart: past an octahedron's edge the texels come back, and their difference would
-  // vanish.
+  const auto position = s.from_sphere(to_source * t.to_sphere(chart, u, v));
+  const int source_chart = static_cast<int>(position.chart);
+  // Half a texel inside the chart: past an octahedron's edge positions fold back, and their difference
+  // would vanish.
   const double texel_u = 1.0 / source.width(), texel_v = 1.0 / source.height();
-  const double su = clamp(place.u, 0.5 * texel_u, 1 - 0.5 * texel_u),
-               sv = clamp(place.v, 0.5 * texel_v, 1 - 0.5 * texel_v);
+  const double su = clamp(position.u, 0.5 * texel_u, 1 - 0.5 * texel_u),
+               sv = clamp(position.v, 0.5 * texel_v, 1 - 0.5 * texel_v);
   const Vec3d across = step(s, source_chart, su, sv, texel_u, 0),
               along = step(s, source_chart, su, sv, 0, texel_v);
   const Vec3d texel_right = widened(across, along), texel_down = widened(along, across);
@@ -100,13 +100,13 @@ namespace {
 
 /// The lengths of a footprint's side over a tile.
 struct Range {
-  double lowest = 1e300, highest = 0;
+  double minimum = 1e300, maximum = 0;
 
   void add(double length) {
-    lowest = std::min(lowest, length);
-    highest = std::max(highest, length);
+    minimum = std::min(minimum, length);
+    maximum = std::max(maximum, length);
   }
-  bool varies() const { return highest > 1 && highest > 1.5 * lowest; }
+  bool varies() const { return maximum > 1 && maximum > 1.5 * minimum; }
 };
 
 struct Planner {
@@ -118,8 +118,8 @@ struct Planner {
 
   Footprint at(double x, double y) const { return footprint_at(source, target, to_source, chart, x, y); }
 
-  /// Whether none of nine points of a rectangle is a place of the target: it lies outside a disc, all but a
-  /// sliver perhaps.
+  /// Whether nine points of a rectangle are all invalid in the target: it lies outside a disc, except perhaps
+  /// for a thin part.
   bool outside(int x, int y, int width, int height) const {
     for (int i = 0; i < 9; ++i) {
       const double u = (x + 0.5 * (i % 3) * width) / target.width(),
@@ -154,28 +154,28 @@ struct Planner {
     }
     FootprintTile tile{chart, x, y, width, height, 1, 1, 0, false, {}, {}};
     for (int i = 0; i < 4; ++i) {
-      // In a texel at a pole the corners are no guide to what lies between them.
-      tile.texels_right[i] = static_cast<float>(right.varies() ? right.highest : corners[i].right_length());
-      tile.texels_down[i] = static_cast<float>(down.varies() ? down.highest : corners[i].down_length());
+      // In a texel at a pole the corners do not bound what lies between them.
+      tile.texels_right[i] = static_cast<float>(right.varies() ? right.maximum : corners[i].right_length());
+      tile.texels_down[i] = static_cast<float>(down.varies() ? down.maximum : corners[i].down_length());
     }
     const auto averaged = [&](double texels) {
-      const double part = static_cast<double>(spread(static_cast<float>(texels)));
+      const double part = static_cast<double>(averaged_fraction(static_cast<float>(texels)));
       return std::min(part * texels / std::exp2(tile.level), 1e4);
     };
     const int max_levels = 20;
     tile.level =
         static_cast<int>(clamp(std::floor(std::log2(narrowest / kTexelsAcross + 1e-300)), 0.0, 20.0));
-    while (tile.level < max_levels && averaged(right.highest) * averaged(down.highest) > kMostTexels)
+    while (tile.level < max_levels && averaged(right.maximum) * averaged(down.maximum) > kMaxTexels)
       ++tile.level;
     const float fewest = std::min(*std::min_element(tile.texels_right, tile.texels_right + 4),
                                   *std::min_element(tile.texels_down, tile.texels_down + 4));
-    tile.whole = spread(fewest) >= 1;
+    tile.whole = averaged_fraction(fewest) >= 1;
     const auto samples = [&](double texels) {
-      const double density = spread(static_cast<float>(texels)) < 1 ? 1 : kSamplesPerTexel;
+      const double density = averaged_fraction(static_cast<float>(texels)) < 1 ? 1 : kSamplesPerTexel;
       return std::max(1, static_cast<int>(std::ceil(density * averaged(texels))));
     };
-    tile.samples_right = samples(right.highest);
-    tile.samples_down = samples(down.highest);
+    tile.samples_right = samples(right.maximum);
+    tile.samples_down = samples(down.maximum);
     tiles.push_back(tile);
   }
 };

@@ -37,9 +37,9 @@ struct FootprintTile {
   float texels_right[4], texels_down[4];
 };
 
-/// Part of the texel over which samples are spread, when it crosses so many source texels: 0 for a look-up at
-/// the centre, 1 for the whole texel.
-float spread(float texels);
+/// The fraction of a target texel's side that is averaged when that side crosses `texels` source texels: 0
+/// for a look-up at the centre, 1 for the whole side.
+float averaged_fraction(float texels);
 
 /// Tiles of a whole target chart row band: covers `rows` rows from `first_row` of `chart`. Tiles are split
 /// until the footprint hardly changes within one.

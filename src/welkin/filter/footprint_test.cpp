@@ -36,14 +36,14 @@ TEST(FootprintTest, ItsAreaIsTheRatioOfSolidAngles) {
   const Matrix3 turn = rotation_from_yaw_pitch_roll(33, 21, 7);
   for (const char* name : {"latlong", "cube", "mercator", "paraboloid"}) {
     const Map source = make_map("cube", 256), target = make_map(name, 64);
-    for_each_place(target, [&](int chart, int x, int y) {
+    for_each_valid_texel(target, [&](int chart, int x, int y) {
       if ((x + y) % 7 != 0) return;
       const double u = (x + 0.5) / target.width(), v = (y + 0.5) / target.height();
-      const auto place =
+      const auto position =
           source.parameterization.from_sphere(turn * target.parameterization.to_sphere(chart, u, v));
-      const double texel =
-          source.parameterization.solid_angle_density(static_cast<int>(place.chart), place.u, place.v) /
-          source.width() / source.height();
+      const double texel = source.parameterization.solid_angle_density(static_cast<int>(position.chart),
+                                                                       position.u, position.v) /
+                           source.width() / source.height();
       const double mine =
           target.parameterization.solid_angle_density(chart, u, v) / target.width() / target.height();
       const Footprint f = footprint_at(source, target, turn, chart, x + 0.5, y + 0.5);
@@ -53,7 +53,7 @@ TEST(FootprintTest, ItsAreaIsTheRatioOfSolidAngles) {
   }
 }
 
-/// On an octahedron's edge texels come back, at a pole they vanish: the footprint does neither.
+/// On an octahedron's edge texels fold back, at a pole their width vanishes: the footprint does neither.
 TEST(FootprintTest, EdgesAndPolesOfTheSourceAreNotLost) {
   const Map target = make_map("cube", 16);
   for (const std::string& name : sphere::parameterization_names()) {
@@ -107,12 +107,12 @@ TEST(FootprintTest, TheLevelLeavesEightTexelsAcross) {
   for (const FootprintTile& tile : tiles) EXPECT_EQ(tile.samples_right * tile.samples_down, 1);
 }
 
-TEST(FootprintTest, SpreadRisesFromAPointToTheWholeTexel) {
-  EXPECT_EQ(spread(0), 0);
-  EXPECT_EQ(spread(1), 0);
-  EXPECT_EQ(spread(2.5f), 1);
-  EXPECT_EQ(spread(1000), 1);
-  for (float t = 0; t < 3; t += 0.01f) EXPECT_GE(spread(t + 0.01f), spread(t));
+TEST(FootprintTest, AveragedFractionRisesFromZeroToOne) {
+  EXPECT_EQ(averaged_fraction(0), 0);
+  EXPECT_EQ(averaged_fraction(1), 0);
+  EXPECT_EQ(averaged_fraction(2.5f), 1);
+  EXPECT_EQ(averaged_fraction(1000), 1);
+  for (float t = 0; t < 3; t += 0.01f) EXPECT_GE(averaged_fraction(t + 0.01f), averaged_fraction(t));
 }
 
 }  // namespace

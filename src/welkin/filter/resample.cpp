@@ -11,7 +11,7 @@
 namespace welkin {
 namespace {
 
-/// The fill wherever a chart has no place of the map.
+/// Writes the fill to every texel that is not valid.
 void fill_outside(Map& map, std::vector<float> fill) {
   fill.resize(static_cast<std::size_t>(map.channels()), 0.0f);
   parallel_for(map.charts() * map.height(), [&](int i) {
@@ -51,14 +51,18 @@ void resample_charts(const Map& source, Map& target, const ResampleOptions& opti
 }  // namespace
 
 void resample(const Map& source, Map& target, const ResampleOptions& options) {
+  source.check();
+  target.check();
+  require(&source != &target, "a map is resampled into another");
   require(source.channels() == target.channels(),
           "the maps to resample between have other numbers of channels");
+  require(is_orthonormal(options.rotation), "a world is turned by a rotation or a reflection");
   resample_charts(source, target, options);
   if (options.borders) fill_borders(target);
 }
 
 ChartSize default_chart_size(const Map& map, const sphere::AnyParameterization& parameterization) {
-  // The part of its charts' area that is places of the map, on a grid fine enough for a few per mille.
+  // The valid part of its charts' area, on a grid fine enough for a few per mille.
   const auto used = [](const sphere::AnyParameterization& p) {
     constexpr int kGrid = 64;
     int valid = 0;

@@ -12,8 +12,8 @@
 namespace welkin {
 namespace {
 
-/// Where a grid of points of the target lies in the source, and what each weighs: 0 where it is no place of
-/// the target, or the source doesn't show it.
+/// Where a grid of points of the target lies in the source, and the weight of each: 0 where it is not valid
+/// in the target, or the source doesn't show it.
 struct Grid {
   std::vector<float> chart, u, v, weight;
 };
@@ -99,7 +99,7 @@ class AreaResampler {
   }
 
   /// Texels whose area is a parallelogram in one source chart are averaged texel by texel; the few others
-  /// (poles, chart edges, folds, rims) from samples that each find their own place.
+  /// (poles, chart edges, folds, rims) from samples whose positions are computed one by one.
   void fill_by_areas(const FootprintTile& tile, Batch& batch) const {
     Grid corners, centres;
     locate_grid(tile, tile.width + 1, tile.height + 1, 0.0f, batch, corners);
@@ -124,12 +124,12 @@ class AreaResampler {
     }
   }
 
-  /// The parallelogram through four corners, unless one of them is no place of either map, or they lie in
+  /// The parallelogram through four corners, unless one of them is not valid in either map, or they lie in
   /// different charts, or it bends or twists by more than a fraction of a texel, or the target's density is
   /// not linear over it, or it leaves the chart's border.
   static bool parallelogram(const LevelView& level, const Grid& corners, std::size_t corner, std::size_t row,
                             const Grid& centres, std::size_t centre, Parallelogram& out) {
-    constexpr float kMostBend = 0.25f, kMostUnevenness = 0.005f;
+    constexpr float kMaxBend = 0.25f, kMaxUnevenness = 0.005f;
     const std::size_t at[4] = {corner, corner + 1, corner + row, corner + row + 1};
     const float chart = centres.chart[centre];
     float x[4], y[4];
@@ -144,7 +144,7 @@ class AreaResampler {
     const auto middle = [](const float* p) { return 0.25f * (p[0] + p[1] + p[2] + p[3]); };
     const auto twist = [](const float* p) { return 0.25f * (p[0] + p[3] - p[1] - p[2]); };
     for (const float bend : {middle(x) - out.x, middle(y) - out.y, twist(x), twist(y)}) {
-      if (!(std::fabs(bend) < kMostBend)) return false;
+      if (!(std::fabs(bend) < kMaxBend)) return false;
     }
     const float right[2] = {0.5f * (x[1] + x[3] - x[0] - x[2]), 0.5f * (y[1] + y[3] - y[0] - y[2])};
     const float down[2] = {0.5f * (x[2] + x[3] - x[0] - x[1]), 0.5f * (y[2] + y[3] - y[0] - y[1])};
@@ -163,7 +163,7 @@ class AreaResampler {
     out.down[1] = right[0] / determinant;
     const float w[4] = {corners.weight[at[0]], corners.weight[at[1]], corners.weight[at[2]],
                         corners.weight[at[3]]};
-    if (!(std::fabs(middle(w) - centres.weight[centre]) < kMostUnevenness * centres.weight[centre]))
+    if (!(std::fabs(middle(w) - centres.weight[centre]) < kMaxUnevenness * centres.weight[centre]))
       return false;
     const float scale = 0.5f / centres.weight[centre];
     out.gradient[0] = (w[1] + w[3] - w[0] - w[2]) * scale;
@@ -171,17 +171,17 @@ class AreaResampler {
     return std::isfinite(out.gradient[0]) && std::isfinite(out.gradient[1]);
   }
 
-  /// Means of the next texels of a tile's row, at most `most` and as many as fit into a batch; returns how
+  /// Means of the next texels of a tile's row, at most `limit` and as many as fit into a batch; returns how
   /// many.
-  int average(const FootprintTile& tile, int x0, int y0, int most, int per_texel, Batch& batch) const {
-    const int texels = std::clamp(kBatch / per_texel, 1, std::min(most, tile.width - x0));
-    // The mean of several samples hides how each is interpolated.
+  int average(const FootprintTile& tile, int x0, int y0, int limit, int per_texel, Batch& batch) const {
+    const int texels = std::clamp(kBatch / per_texel, 1, std::min(limit, tile.width - x0));
+    // The more samples a mean has, the less their interpolation matters.
     const Fetch kernel = per_texel >= 9  ? job_.kernels.bilinear
                          : per_texel > 4 ? job_.fetch_of(Filter::bicubic)
                                          : job_.fetch_of(Filter::automatic);
     const LevelView& level = levels_[std::min(static_cast<std::size_t>(tile.level), levels_.size() - 1)];
     Sum sum(job_);
-    std::vector<int> beyond;  // texels outside the target's places that show something all the same
+    std::vector<int> beyond;  // texels that are not valid, but show a part of the target
     for (int from = 0; from < per_texel; from += kBatch) {
       const int each = std::min(per_texel - from, kBatch);
       const std::size_t count = static_cast<std::size_t>(each) * static_cast<std::size_t>(texels);
@@ -209,8 +209,8 @@ class AreaResampler {
     return texels;
   }
 
-  /// Places of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that is
-  /// averaged.
+  /// Positions of samples from … from+count−1 of a texel, on a regular grid over the part of the texel that
+  /// is averaged.
   void spread_samples(const FootprintTile& tile, int x, int y, int from, int count, Batch& batch,
                       std::size_t to) const {
     const float fx = (static_cast<float>(x) + 0.5f) / static_cast<float>(tile.width);
@@ -222,8 +222,8 @@ class AreaResampler {
     };
     const float across = 1.0f / static_cast<float>(job_.target.width()),
                 down = 1.0f / static_cast<float>(job_.target.height());
-    const float step_x = spread(mix(tile.texels_right)) / static_cast<float>(tile.samples_right);
-    const float step_y = spread(mix(tile.texels_down)) / static_cast<float>(tile.samples_down);
+    const float step_x = averaged_fraction(mix(tile.texels_right)) / static_cast<float>(tile.samples_right);
+    const float step_y = averaged_fraction(mix(tile.texels_down)) / static_cast<float>(tile.samples_down);
     const float centre_x = static_cast<float>(tile.x + x) + 0.5f,
                 centre_y = static_cast<float>(tile.y + y) + 0.5f;
     const float middle_x = 0.5f * static_cast<float>(tile.samples_right - 1);

@@ -34,10 +34,10 @@ TEST(Convention, CubesReturnTheRadianceOfTheDirectionThatIsLookedUp) {
     map.orientation = orientation_for(convention_from_name(program.name), cube());
     resample(world, map, options);
     for (const Vec3d& d : directions(300)) {
-      const auto place = cube().from_sphere(program.cube(program.from_native(d)));
+      const auto position = cube().from_sphere(program.cube(program.from_native(d)));
       const auto texel_of = [](double u) { return std::min(static_cast<int>(u * kSize), kSize - 1); };
-      const auto face = map.level.chart(static_cast<int>(place.chart));
-      const float* texel = face.at(texel_of(place.u), texel_of(place.v));
+      const auto face = map.level.chart(static_cast<int>(position.chart));
+      const float* texel = face.at(texel_of(position.u), texel_of(position.v));
       EXPECT_LT(length(Vec3d{texel[0], texel[1], texel[2]} - d), 0.06);
     }
   }

@@ -19,7 +19,7 @@ constexpr Filter kFilters[] = {Filter::automatic, Filter::nearest, Filter::bilin
 
 enum class Coverage { none, mixed, full };
 
-/// How much of the cone of half-angle `angle` around a direction is covered, seen by a polar grid.
+/// How much of the cone of half-angle `angle` around a direction is covered, found on a polar grid.
 Coverage coverage_around(const sphere::AnyParameterization& p, const Vec3d& d, double angle) {
   if (p.whole_world()) return Coverage::full;
   constexpr int kRings = 10, kSpokes = 24;
@@ -35,7 +35,7 @@ Coverage coverage_around(const sphere::AnyParameterization& p, const Vec3d& d, d
   return covered == kRings * kSpokes ? Coverage::full : Coverage::mixed;
 }
 
-/// The angle from a texel's centre to the farthest of its places, seen by a 5×5 grid.
+/// The angle from a texel's centre to the farthest of its valid positions, found on a 5×5 grid.
 double half_width(const Map& map, int chart, int x, int y) {
   double widest = 0;
   const Vec3d centre =
@@ -58,7 +58,7 @@ TEST_P(ResampleCrossTest, AConstantStaysConstantAndTheRestIsFilled) {
         ResampleOptions options = with(filter);
         options.fill = {-4};
         options.allow_ringing = source_size == 24;
-        // Lanczos: 64 float weights, and no range to hold them to.
+        // Lanczos: 64 float weights, and no range to clamp them to.
         const double rounding = options.allow_ringing ? 1e-5 : 2.5e-6;
         if (source_size > 5) options.rotation = rotation_from_yaw_pitch_roll(20, 35, 10);
         resample(source, target, options);
@@ -69,8 +69,8 @@ TEST_P(ResampleCrossTest, AConstantStaysConstantAndTheRestIsFilled) {
               const std::string where = name + " " + std::string(name_of(filter)) + " " +
                                         std::to_string(chart) + ": " + std::to_string(x) + "," +
                                         std::to_string(y);
-              if (!is_place(target, chart, x, y)) {
-                // Where only a part of the texel is a place of the target, that part counts.
+              if (!is_valid_texel(target, chart, x, y)) {
+                // Where only a part of the texel is valid in the target, that part is averaged.
                 if (filter != Filter::automatic && !target.parameterization.filled_to_edges()) {
                   ASSERT_EQ(value, -4) << std::setprecision(9) << value << " " << where;
                 }
@@ -103,14 +103,14 @@ struct Reading {
 
 Reading reading_at(const Map& source, const Vec3d& d, double value) {
   const auto& p = source.parameterization;
-  const auto place = p.from_sphere(d);
-  const int chart = static_cast<int>(place.chart);
+  const auto position = p.from_sphere(d);
+  const int chart = static_cast<int>(position.chart);
   Reading reading;
   reading.error = std::fabs(value - smooth(d));
   for (const double i : {-1.0, 0.0, 1.0}) {
     for (const double j : {-1.0, 0.0, 1.0}) {
       const auto at = [&](double texels) {
-        return std::pair{place.u + texels * i / source.width(), place.v + texels * j / source.height()};
+        return std::pair{position.u + texels * i / source.width(), position.v + texels * j / source.height()};
       };
       const auto [u, v] = at(2);
       if (u < 0 || u > 1 || v < 0 || v > 1 || !p.valid(chart, u, v)) reading.at_edge = true;
@@ -123,7 +123,7 @@ Reading reading_at(const Map& source, const Vec3d& d, double value) {
 
 template <class Body>
 void for_each_reading(const Map& source, const Map& target, const Body& body) {
-  for_each_place(target, [&](int chart, int x, int y) {
+  for_each_valid_texel(target, [&](int chart, int x, int y) {
     const Vec3d d = direction_at(target, chart, x, y);
     if (coverage_around(source.parameterization, d, 1e-5) != Coverage::full) return;
     body(reading_at(source, d, static_cast<double>(*target.level.chart(chart).at(x, y))));
@@ -144,8 +144,8 @@ TEST_P(ResampleCrossTest, ASmoothFunctionIsNowhereDisplacedByHalfATexel) {
   }
 }
 
-/// Parameterizations that know what lies past their edges, and whose texels there have a shape: not those
-/// with rims, nor equal-area, whose texels at the poles are slivers.
+/// Parameterizations that continue past their edges and whose texels there are not degenerate: not those with
+/// rims, nor equal-area, whose texels at the poles are thin.
 std::vector<std::string> names_without_rims() {
   std::vector<std::string> names;
   for (const std::string& name : sphere::parameterization_names()) {

@@ -32,25 +32,26 @@ struct ResampleJob {
   }
 };
 
-/// directions → rotate → places, for a batch of samples given as (u, v) of a target chart, padded(count) ≤
+/// directions → rotate → positions, for a batch of samples given as (u, v) of a target chart, padded(count) ≤
 /// kBatch.
 class Batch {
  public:
   explicit Batch(const ResampleJob& job) : job_(job), pixels_(kBatch * job.channels() + 8) {}
 
-  alignas(64) float u[kBatch], v[kBatch];                               ///< in: places in the target's chart
-  alignas(64) float chart[kBatch], source_u[kBatch], source_v[kBatch];  ///< places in the source
+  alignas(64) float u[kBatch], v[kBatch];  ///< in: positions in the target's chart
+  alignas(64) float chart[kBatch], source_u[kBatch], source_v[kBatch];  ///< positions in the source
   alignas(64) float weight[kBatch];  ///< solid angle per (u, v) area of the target
 
-  /// Finds the source's places.
+  /// Finds the source's positions.
   void locate(int target_chart, std::size_t count);
-  /// Weighs each sample by the solid angle around it, 0 outside the target's places. Call it after locate.
+  /// Weights each sample by the solid angle around it, 0 where the target is not valid. Call it after locate.
   void weigh(int target_chart, std::size_t count);
   /// Which samples the source shows: 1 or 0. Call it after locate.
   const float* covered(std::size_t count);
-  /// The source's values at the places, channels() for each sample: the fill where the source shows nothing.
+  /// The source's values at the positions, channels() for each sample: the fill where the source shows
+  /// nothing.
   const float* fetch(Fetch kernel, const LevelView& level, std::size_t count);
-  /// The same with the fill also where the target has no place, unless it is filled to its edges.
+  /// The same with the fill also where the target is not valid, unless it is filled to its edges.
   const float* fetch_texels(Fetch kernel, const LevelView& level, int target_chart, std::size_t count);
 
  private:

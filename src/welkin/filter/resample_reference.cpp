@@ -41,7 +41,7 @@ double kernel(Filter filter, double t) {
   return t <= 0.5 ? 1 : 0;
 }
 
-/// Texels on each side of a place that a kernel reads.
+/// Texels on each side of a position that a kernel reads.
 int reach(Filter filter) {
   switch (filter) {
     case Filter::bicubic:
@@ -53,12 +53,12 @@ int reach(Filter filter) {
   }
 }
 
-/// `place` 0…1 along an axis of `size` texels.
-Weights weights_at(Filter filter, double place, int size) {
+/// `position` 0…1 along an axis of `size` texels.
+Weights weights_at(Filter filter, double position, int size) {
   if (filter == Filter::nearest) {
-    return {static_cast<int>(clamp(std::floor(place * size), 0.0, size - 1.0)), 1, {1.0}};
+    return {static_cast<int>(clamp(std::floor(position * size), 0.0, size - 1.0)), 1, {1.0}};
   }
-  const double x = clamp(place * size - 0.5, -0.5, size - 0.5);
+  const double x = clamp(position * size - 0.5, -0.5, size - 0.5);
   const int before = static_cast<int>(std::floor(x));
   Weights weights{before - reach(filter) + 1, 2 * reach(filter), {}};
   double total = 0;
@@ -71,22 +71,22 @@ Weights weights_at(Filter filter, double place, int size) {
 }
 
 /// The rule of RingingFetch: at most half the range of the inner 4×4 texels beyond that range, and not below
-/// half the lowest.
+/// half the minimum.
 double limit_overshoot(const ImageView<const float>& chart, const Weights& across, const Weights& down,
                        int channel, double value) {
   const int margin = (across.count - 4) / 2;
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  double minimum = HUGE_VAL, maximum = -HUGE_VAL;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {
       const double texel =
           static_cast<double>(chart.at(across.first + margin + i, down.first + margin + j)[channel]);
-      lowest = std::min(lowest, texel);
-      highest = std::max(highest, texel);
+      minimum = std::min(minimum, texel);
+      maximum = std::max(maximum, texel);
     }
   }
-  const double beyond = 0.5 * (highest - lowest);
-  const double floor = std::max(lowest - beyond, std::min(lowest, 0.5 * lowest));
-  return clamp(value, floor, highest + beyond);
+  const double beyond = 0.5 * (maximum - minimum);
+  const double floor = std::max(minimum - beyond, std::min(minimum, 0.5 * minimum));
+  return clamp(value, floor, maximum + beyond);
 }
 
 class Reference {
@@ -138,10 +138,10 @@ class Reference {
       value = fill_;
       return;
     }
-    const auto place = p.from_sphere(d);
-    const ImageView<const float> chart = source_.level.chart(static_cast<int>(place.chart));
-    const Weights across = weights_at(options_.filter, place.u, source_.width());
-    const Weights down = weights_at(options_.filter, place.v, source_.height());
+    const auto position = p.from_sphere(d);
+    const ImageView<const float> chart = source_.level.chart(static_cast<int>(position.chart));
+    const Weights across = weights_at(options_.filter, position.u, source_.width());
+    const Weights down = weights_at(options_.filter, position.v, source_.height());
     const bool rings = options_.filter == Filter::bicubic || options_.filter == Filter::lanczos;
     for (std::size_t c = 0; c < value.size(); ++c) {
       const int channel = static_cast<int>(c);

@@ -32,8 +32,8 @@ int count_different(const Map& a, const Map& b, double tolerance) {
   return count;
 }
 
-/// Places are float: within 1e-6 of a chart, so where texels are a hundredth of the waves the values agree to
-/// 2e-4. Two places may come down on different sides of a texel's edge (nearest) or of a rim.
+/// Positions are float: within 1e-6 of a chart, so where texels are a hundredth of the waves the values agree
+/// to 2e-4. Two positions may fall on different sides of a texel's edge (nearest) or of a rim.
 TEST_P(ResampleReferenceTest, PointFiltersAgreeFromEverywhereAndToEverywhere) {
   const Map source = rendered(GetParam(), 48, waves(12, 6));
   for (const std::string& name : sphere::parameterization_names()) {
@@ -83,16 +83,16 @@ struct AreaCase {
 /// Makes texels alike that cross less than 2¼ source texels one way: there resample() interpolates on
 /// purpose.
 void keep_minified(const Map& source, const ResampleOptions& options, const Map& from, Map& to) {
-  for_each_place(to, [&](int chart, int x, int y) {
+  for_each_valid_texel(to, [&](int chart, int x, int y) {
     const Footprint f = footprint_at(source, to, transpose(options.rotation), chart, x + 0.5, y + 0.5);
     if (std::min(f.right_length(), f.down_length()) > 2.25) return;
     *to.level.chart(chart).at(x, y) = *from.level.chart(chart).at(x, y);
   });
 }
 
-/// Minified eightfold, against 16×16 points per texel, as they lie and with poles, edges and folds where they
-/// are not by symmetry. Range 0…1. Where one side of a lat-long's texel is minified and the other magnified
-/// (at poles), lines and edges of the source keep Lanczos' overshoot: 28 dB.
+/// Minified eightfold, against 16×16 points per texel, unrotated, and rotated so that poles, edges and folds
+/// lie at no symmetric position. Range 0…1. Where one side of a lat-long's texel is minified and the other
+/// magnified (at poles), lines and edges of the source keep Lanczos' overshoot: 28 dB.
 TEST(ResampleReferenceTest, AreaMeansAreExactToFortyFiveDecibels) {
   const AreaCase each_case[] = {{"latlong", 362, "cube", 16},
                                 {"cube", 160, "latlong", 56},

@@ -46,7 +46,7 @@ TEST(ResampleTest, RotationThereAndBackReturns) {
     options.rotation = rotation;
     resample(source, there, options);
     fill_borders(there);
-    for_each_place(there, [&](int chart, int x, int y) {
+    for_each_valid_texel(there, [&](int chart, int x, int y) {
       const double expected = smooth(transpose(rotation) * direction_at(there, chart, x, y));
       ASSERT_NEAR(*there.level.chart(chart).at(x, y), expected, 0.01) << name;
     });
@@ -56,7 +56,7 @@ TEST(ResampleTest, RotationThereAndBackReturns) {
   }
 }
 
-/// A map's pixels may lie turned in the world, and both ends of a conversion say so by `orientation`.
+/// A map may be rotated in the world: source and target each have their own `orientation`.
 TEST(ResampleTest, OrientationsAndRotationCompose) {
   const Matrix3 a = rotation_from_yaw_pitch_roll(20, 50, -10), b = rotation_from_yaw_pitch_roll(-70, 15, 33);
   Matrix3 mirrored = rotation_from_yaw_pitch_roll(10, 20, 30);
@@ -71,7 +71,7 @@ TEST(ResampleTest, OrientationsAndRotationCompose) {
     ResampleOptions options = with(Filter::bicubic);
     options.rotation = rotation;
     resample(source, target, options);
-    for_each_place(target, [&](int chart, int x, int y) {
+    for_each_valid_texel(target, [&](int chart, int x, int y) {
       const Vec3d d = direction_at(target, chart, x, y);
       ASSERT_NEAR(*target.level.chart(chart).at(x, y), smooth(transpose(rotation) * d), 1e-3);
     });
@@ -79,8 +79,8 @@ TEST(ResampleTest, OrientationsAndRotationCompose) {
 }
 
 /// The smallest value around one texel of a million in a dark map, on each face's middle, edge and corner.
-double lowest_beside_a_light(Filter filter, bool allow_ringing, double dark) {
-  double lowest = HUGE_VAL;
+double minimum_beside_a_light(Filter filter, bool allow_ringing, double dark) {
+  double minimum = HUGE_VAL;
   for (const auto& [x, y] : {std::pair{8, 8}, {0, 7}, {15, 15}}) {
     Map source = rendered("cube", 16, [dark](const Vec3d&) { return dark; });
     *source.level.chart(2).at(x, y) = 1e6f;
@@ -91,21 +91,21 @@ double lowest_beside_a_light(Filter filter, bool allow_ringing, double dark) {
       options.allow_ringing = allow_ringing;
       options.rotation = rotation_from_yaw_pitch_roll(3, 4, 5);
       resample(source, target, options);
-      for_each_place(target, [&](int chart, int i, int j) {
-        lowest = std::min(lowest, static_cast<double>(*target.level.chart(chart).at(i, j)));
+      for_each_valid_texel(target, [&](int chart, int i, int j) {
+        minimum = std::min(minimum, static_cast<double>(*target.level.chart(chart).at(i, j)));
       });
     }
   }
-  return lowest;
+  return minimum;
 }
 
 TEST(ResampleTest, LightNeverBecomesNegativeUnlessRingingIsAllowed) {
   for (const Filter filter : kFilters) {
-    EXPECT_GE(lowest_beside_a_light(filter, false, 0), 0) << name_of(filter);
-    EXPECT_GE(lowest_beside_a_light(filter, false, 0.25), 0.125 - 1e-6) << name_of(filter);
+    EXPECT_GE(minimum_beside_a_light(filter, false, 0), 0) << name_of(filter);
+    EXPECT_GE(minimum_beside_a_light(filter, false, 0.25), 0.125 - 1e-6) << name_of(filter);
   }
   for (const Filter filter : {Filter::automatic, Filter::bicubic, Filter::lanczos}) {
-    EXPECT_LT(lowest_beside_a_light(filter, true, 0), -1e4) << name_of(filter);
+    EXPECT_LT(minimum_beside_a_light(filter, true, 0), -1e4) << name_of(filter);
   }
 }
 
@@ -122,7 +122,7 @@ TEST(ResampleTest, ANaNStaysWithinTheKernelsReach) {
         Map target = make_map("octahedral", 120);
         resample(source, target, with(filter));
         int poisoned = 0;
-        for_each_place(target, [&](int chart, int x, int y) {
+        for_each_valid_texel(target, [&](int chart, int x, int y) {
           if (!std::isnan(*target.level.chart(chart).at(x, y))) return;
           ++poisoned;
           EXPECT_LT(length(direction_at(target, chart, x, y) - centre), (4 + 2 + 1) * std::sqrt(2) * texel)
@@ -196,7 +196,7 @@ TEST(ResampleTest, AnyNumberOfChannelsGivesTheSameResults) {
     for (const int channels : {2, 3, 4, 5, 7}) {
       Map many = make_map("cube", 12, channels);
       resample(rendered("latlong", 40, waves(20, 15), channels), many, with(filter));
-      for_each_place(one, [&](int chart, int x, int y) {
+      for_each_valid_texel(one, [&](int chart, int x, int y) {
         for (int c = 0; c < channels; ++c) {
           const float expected = static_cast<float>(c + 1) * *one.level.chart(chart).at(x, y);
           ASSERT_NEAR(many.level.chart(chart).at(x, y)[c], expected, 3e-6 * (c + 1))
@@ -230,7 +230,7 @@ TEST(ResampleTest, ProgressRisesToOneAndCancellingThrows) {
 }
 
 /// Outside the discs of a paraboloid and the triangles of an octahedron's perspective pictures, the pictures
-/// go on: what their direction shows, so that a renderer may read across the rim.
+/// continue: what their direction shows, so that a renderer may read across the rim.
 TEST(ResampleTest, PicturesThatGoOnShowTheirDirectionsToTheEdge) {
   const auto smooth_world = [](const Vec3d& d) { return 2 + d.x - 0.5 * d.y + 0.25 * d.x * d.z; };
   Map source(sphere::AnyParameterization::make("latlong"), 256, 128, 1);

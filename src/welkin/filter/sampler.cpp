@@ -100,7 +100,7 @@ void look_up_tiles(const Sampler::State& state, const Directions& directions, st
   }
 }
 
-/// A pointer that keeps nothing alive.
+/// A non-owning pointer.
 template <class T>
 std::shared_ptr<const T> borrowed(const T& object) {
   return {std::shared_ptr<void>(), &object};
@@ -112,8 +112,8 @@ std::shared_ptr<const Sampler::State> state_of(std::shared_ptr<const Map> map,
   if (options.levels < 0) refuse("a pyramid of " + std::to_string(options.levels) + " levels");
   auto state = std::make_shared<Sampler::State>(map, *map, options);
   state->add(map->parameterization, map->level);
-  const int most = levels_below(map->width(), map->height());
-  state->add_pyramid(*map, options.levels == 0 ? most : std::min(options.levels - 1, most));
+  const int last_level = levels_below(map->width(), map->height());
+  state->add_pyramid(*map, options.levels == 0 ? last_level : std::min(options.levels - 1, last_level));
   return state;
 }
 
@@ -124,7 +124,7 @@ std::shared_ptr<const Sampler::State> state_of(std::shared_ptr<const Chain> chai
   auto state = std::make_shared<Sampler::State>(chain, first, options);
   for (const Map& level : chain->levels) {
     if (level.channels() != first.channels()) refuse("the chain's levels differ in channels");
-    if (level.parameterization.name() != first.parameterization.name() ||
+    if (!(level.parameterization == first.parameterization.at_size(level.width(), level.height())) ||
         !(level.orientation == first.orientation)) {
       refuse("the chain's levels differ in parameterization or orientation");
     }

@@ -30,10 +30,10 @@ struct AimedDirections {
 };
 
 /// Scales each direction by a power of two, so that its longest component is between 1 and 2 and no formula
-/// overflows or loses digits (for the largest and for subnormal numbers: between 2^−22 and 4), and turns it.
-/// Values of `to` up to the next whole pack are written. Returns whether all are usable.
+/// overflows or loses digits (for the largest and for subnormal numbers: between 2^−22 and 4), and rotates
+/// it. Values of `to` up to the next whole pack are written. Returns whether all are usable.
 ///
-/// A direction gives the same bits alone, among others and in any pack. Turning adds an error of at most
+/// A direction gives the same bits alone, among others and in any pack. The rotation adds an error of at most
 /// 2e-7.
 using Aim = bool (*)(const FloatOrientation& orientation, const StridedDirections& from,
                      const AimedDirections& to, std::size_t count);

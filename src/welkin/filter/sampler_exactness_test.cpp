@@ -51,10 +51,10 @@ std::vector<Vec3<float>> telling_directions(const Map& map) {
   return directions;
 }
 
-/// The lowest and the highest value, and whether some are shown and some not, of the float64 look-ups at a
+/// The minimum and the maximum value, and whether some are shown and some not, of the float64 look-ups at a
 /// direction and at those around it, `angle` radians away.
 struct Neighbourhood {
-  float lowest = HUGE_VALF, highest = -HUGE_VALF;
+  float minimum = HUGE_VALF, maximum = -HUGE_VALF;
   bool shown = true, hidden = true;  ///< all of them
 };
 
@@ -74,13 +74,13 @@ Neighbourhood around(const Sampler& sampler, const Vec3d& direction, double angl
   Neighbourhood found;
   for (std::size_t i = 0; i < values.size(); ++i) {
     (sampler.covers(directions[i]) ? found.hidden : found.shown) = false;
-    found.lowest = std::min(found.lowest, values[i]);
-    found.highest = std::max(found.highest, values[i]);
+    found.minimum = std::min(found.minimum, values[i]);
+    found.maximum = std::max(found.maximum, values[i]);
   }
   return found;
 }
 
-/// A float look-up finds what float64 finds within the promised angle. 3e-7 of a chart's side is at most 2π
+/// A float look-up finds what float64 finds within the stated angle. 3e-7 of a chart's side is at most 2π
 /// times as many radians, around a lat-long. Where radiance is smooth within that angle, the values between
 /// those that the neighbourhood tries differ by less than half of their range. Rounding of values: 1e-6.
 TEST(SamplerExactness, FloatDirectionsAgreeWithFloat64) {
@@ -104,10 +104,10 @@ TEST(SamplerExactness, FloatDirectionsAgreeWithFloat64) {
           if (found.hidden) {
             ASSERT_FALSE(sampler.covers(f)) << spec;
           }
-          const float margin = 0.5f * (found.highest - found.lowest) + 2e-6f;
-          ASSERT_GE(values[i], found.lowest - margin)
+          const float margin = 0.5f * (found.maximum - found.minimum) + 2e-6f;
+          ASSERT_GE(values[i], found.minimum - margin)
               << spec << " " << name_of(filter) << " " << f.x << " " << f.y << " " << f.z;
-          ASSERT_LE(values[i], found.highest + margin)
+          ASSERT_LE(values[i], found.maximum + margin)
               << spec << " " << name_of(filter) << " " << f.x << " " << f.y << " " << f.z;
         }
       }

@@ -23,7 +23,7 @@ std::vector<float> values_along(const Sampler& sampler, const Vec3d& direction, 
 }
 
 /// Along the direction of a texel's centre every filter gives that texel, whatever the direction's length;
-/// the map's orientation turns the question.
+/// the map's orientation rotates the direction.
 TEST(Sampler, GivesTexelsAtTheirCentres) {
   for (const std::string& name : sphere::parameterization_names()) {
     Map map(AnyParameterization::make(name), 16, 16, 3);
@@ -62,7 +62,7 @@ TEST(Sampler, IsZeroWhereTheMapShowsNothing) {
 }
 
 /// Zero, infinite and undefined directions give 0, alone and among others, and nothing else is disturbed.
-TEST(Sampler, NoDirectionsGiveZero) {
+TEST(Sampler, InvalidDirectionsGiveZero) {
   constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = NAN;
   const Vec3<float> none[] = {{0, 0, 0},          {-0.0f, 0, 0},    {kNan, 0, 0},   {0, kNan, 1},
                               {1, 1, kNan},       {kInf, 0, 0},     {0, 0, -kInf},  {kInf, kNan, 1},

@@ -211,8 +211,8 @@ inline void Sampler::State::look_up_levels(const Directions& directions, std::si
   Group group;
   Values finer, coarser;
   const auto channels = static_cast<std::size_t>(channels_);
-  const auto [lowest, highest] = std::minmax_element(levels, levels + count);
-  const int first = static_cast<int>(*lowest), last = static_cast<int>(*highest);
+  const auto [minimum, maximum] = std::minmax_element(levels, levels + count);
+  const int first = static_cast<int>(*minimum), last = static_cast<int>(*maximum);
   for (int level = first; level <= last; ++level) {
     const SampledLevel* in = &levels_[static_cast<std::size_t>(level)];
     if (level == first || !in->same_positions) locate(level, directions, count, tile);

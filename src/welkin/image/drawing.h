@@ -5,8 +5,8 @@
 
 #include "welkin/image/image.h"
 
-/// What pictures of figures are drawn with. Colours are linear sRGB; x and y are in pixels from the top left
-/// corner; what lies outside the picture is left out.
+/// Drawing for figures. Colours are linear sRGB; x and y are in pixels from the top left
+/// corner; what lies outside the picture is clipped.
 namespace welkin {
 
 using Rgb = std::array<float, 3>;

@@ -19,9 +19,9 @@ Image::Image(int width, int height, int channels, PixelContents contents) {
                                             std::to_string(height) + " texels and " +
                                             std::to_string(channels) + " channels cannot be made");
   }
-  const std::uint64_t most = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(float) / 2;
+  const std::uint64_t maximum = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(float) / 2;
   const std::uint64_t texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (texels > most / static_cast<std::uint64_t>(channels))
+  if (texels > maximum / static_cast<std::uint64_t>(channels))
     throw Error(ErrorKind::too_large, "image size overflows");
   const std::size_t values = static_cast<std::size_t>(texels) * static_cast<std::size_t>(channels);
   values_ = LargeMemory(values * sizeof(float) + kReadablePastEnd, contents);

@@ -17,7 +17,7 @@
 namespace welkin::io {
 namespace {
 
-/// x inside [0, 1], with what that cost.
+/// x clamped to [0, 1]; counts what is lost.
 float to_unit_range(float x, WriteReport& report) {
   if (x >= 0 && x <= 1) [[likely]] {
     return x;

@@ -17,7 +17,7 @@ struct Format {
   Capabilities capabilities;
   bool (*matches)(std::span<const std::byte> bytes);  ///< by magic number
   std::unique_ptr<Reader> (*open)(const Source& source);
-  /// What is asked for lies within the capabilities. Throws Error without the file's name, which the caller
+  /// The request lies within the capabilities. Throws Error without the file's name, which the caller
   /// adds.
   WriteReport (*write)(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
   /// Whether `write` takes parts that are drawn when they are written; for others they are drawn before.

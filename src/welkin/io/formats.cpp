@@ -89,8 +89,8 @@ void check_size(const Source& source, std::uint64_t width, std::uint64_t height,
                 "an image of " + size() + " is out of range (1…" + std::to_string(kLongestSide) + " a side)");
   }
   // width·height is at most 2^40, so the comparison by division cannot overflow.
-  const std::uint64_t most_values = source.options.max_bytes / sizeof(float);
-  if (channels > most_values / (width * height)) {
+  const std::uint64_t max_values = source.options.max_bytes / sizeof(float);
+  if (channels > max_values / (width * height)) {
     const long double bytes =
         sizeof(float) * static_cast<long double>(width * height) * static_cast<long double>(channels);
     throw Error(ErrorKind::too_large, source.name,

@@ -12,7 +12,7 @@ ImageView<const float> rows_in_memory(const WritePart& part, int y, int count) {
   return part.image.part(0, y, part.image.width, count);
 }
 
-/// The first `count` rows of `memory`, which is made anew when it is too small.
+/// The first `count` rows of `memory`, which is reallocated when it is too small.
 ImageView<float> band_of(const WritePart& part, int count, Image& memory) {
   const ImageView<const float>& image = part.image;
   if (memory.empty() || memory.height() < count) memory = Image(image.width, count, image.channels);

@@ -120,8 +120,8 @@ class Registration {
 /// Where the bytes must finally go: the path with symbolic links followed, even one whose target does not
 /// exist yet.
 fs::path follow_links(fs::path path) {
-  constexpr int kMostLinks = 40;
-  for (int i = 0; i < kMostLinks; ++i) {
+  constexpr int kMaxLinks = 40;
+  for (int i = 0; i < kMaxLinks; ++i) {
     std::error_code error;
     if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
     const fs::path target = fs::read_symlink(path, error);
@@ -131,12 +131,12 @@ fs::path follow_links(fs::path path) {
   throw Error(kind_of(ELOOP), reason(ELOOP));
 }
 
-/// A name beside `target` that nobody else has: hidden, with the process's number and a count.
+/// A unique name beside `target`: hidden, with the process's number and a count.
 fs::path temporary_name(const fs::path& target) {
   static std::atomic<unsigned> count{0};
-  constexpr std::size_t kMostOfName = 200;
+  constexpr std::size_t kMaxNameLength = 200;
   std::string name = ".";
-  name += target.filename().string().substr(0, kMostOfName);
+  name += target.filename().string().substr(0, kMaxNameLength);
   name += '.';
   name += std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp";
   return target.parent_path() / name;
@@ -189,14 +189,14 @@ OutputFile::OutputFile(const fs::path& path) : state_(std::make_unique<State>())
   }
   state.target = follow_links(path);
   // A crashed process may have left a file of the very same number and count: take the next name.
-  constexpr int kMostAttempts = 100;
+  constexpr int kMaxAttempts = 100;
   for (int attempt = 0; state.file == nullptr; ++attempt) {
     state.temporary = temporary_name(state.target);
     state.registration = std::make_unique<Registration>(state.temporary.string());
     const int descriptor = ::open(state.temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
       state.file = std::make_unique<Descriptor>(descriptor);
-    } else if (errno != EEXIST || attempt == kMostAttempts) {
+    } else if (errno != EEXIST || attempt == kMaxAttempts) {
       fail();
     }
     if (descriptor < 0) state.registration.reset();

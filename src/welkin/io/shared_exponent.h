@@ -30,8 +30,8 @@ inline std::uint32_t shared_exponent_of(float r, float g, float b) {
   // max(−16, ⌊log2 largest⌋) + 16, by the exponent of the float.
   const std::int32_t floor_log2 =
       static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(largest) >> 23) - 127;
-  const std::int32_t least = (floor_log2 > -16 ? floor_log2 : -16) + 16;
-  const std::int32_t exponent = least + (rounded(largest * scale_for(least)) == 512 ? 1 : 0);
+  const std::int32_t minimum = (floor_log2 > -16 ? floor_log2 : -16) + 16;
+  const std::int32_t exponent = minimum + (rounded(largest * scale_for(minimum)) == 512 ? 1 : 0);
   const float scale = scale_for(exponent);
   return static_cast<std::uint32_t>(exponent << 27 | rounded(b * scale) << 18 | rounded(g * scale) << 9 |
                                     rounded(r * scale));

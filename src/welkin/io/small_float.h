@@ -25,7 +25,7 @@ template <int kMantissaBits>
 inline std::uint32_t small_float_of(std::uint32_t magnitude) {
   constexpr int kDropped = 23 - kMantissaBits;
   constexpr auto kInfinity = static_cast<std::int32_t>(0x7f800000u);
-  constexpr auto kLeastNormal = static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(0x1p-14f));
+  constexpr auto kMinNormal = static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(0x1p-14f));
   const auto bits = static_cast<std::int32_t>(magnitude);
 
   const std::uint32_t to_even = ((1u << (kDropped - 1)) - 1) + (magnitude >> kDropped & 1);
@@ -37,7 +37,7 @@ inline std::uint32_t small_float_of(std::uint32_t magnitude) {
   const std::uint32_t kept = (magnitude & 0x7fffffu) >> kDropped;
   const std::uint32_t nan_mark = bits > kInfinity && kept == 0 ? 1 : 0;
   const std::uint32_t special = 31u << kMantissaBits | kept | nan_mark;
-  return bits < kLeastNormal ? subnormal : bits < kInfinity ? normal : special;
+  return bits < kMinNormal ? subnormal : bits < kInfinity ? normal : special;
 }
 
 /// The value of the lowest 5 + kMantissaBits bits of `stored`; exact.

@@ -6,8 +6,8 @@
 /// The sRGB transfer function (IEC 61966-2-1) between stored integers and linear floats.
 namespace welkin::io {
 
-/// Linear value of an encoded one in [0, 1]. Exact formula, float64. Outside [0, 1] the same formula goes on,
-/// odd about 0, as IEC 61966-2-2 (scRGB) extends it.
+/// Linear value of an encoded one in [0, 1]. Exact formula, float64. Outside [0, 1] the same formula
+/// continues, odd about 0, as IEC 61966-2-2 (scRGB) extends it.
 double srgb_to_linear(double encoded);
 /// Encoded value of a linear one in [0, 1]; outside likewise.
 double linear_to_srgb(double linear);

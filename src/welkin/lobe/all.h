@@ -19,7 +19,7 @@ struct TypeList {};
 ///     kName, kDescription, kSource   text: its name in specs, what it is for, author and year
 ///     weight<T>(s)                   w(s), for double, float and packs; s from 0 to 2; finite, not negative
 ///     mirror(), width(), breakpoints()   as AnyLobe has them
-///     visit_parameters(visit)        if it has any: calls visit(name, value, lowest, highest, description),
+///     visit_parameters(visit)        if it has any: calls visit(name, value, minimum, maximum, description),
 ///                                    `value` a double&, for each
 ///     visit_synonyms(visit)          if it has any: the same for other numbers that stand for a parameter
 using AllLobes = TypeList<Lambert, Phong, Blinn, Ggx, Charlie, VonMisesFisher, Table>;

@@ -23,8 +23,8 @@ inline double angle_of_s(double s) {
   return 2 * std::asin(std::sqrt(std::clamp(0.5 * s, 0.0, 1.0)));
 }
 
-/// (1 − x)^exponent for 0 ≤ x < 1, of full relative precision however small x is. Garbage, and no more,
-/// elsewhere. Relative error in float: 2e-7 times the exponent's logarithm of the result, and 2e-7.
+/// (1 − x)^exponent for 0 ≤ x < 1, of full relative precision however small x is. Elsewhere the result is
+/// unspecified. Relative error in float: 2e-7 times the exponent's logarithm of the result, and 2e-7.
 template <class T>
 T power_below_one(const T& x, double exponent) {
   // No 1 − x above zero has a logarithm under −50; the limit keeps 0 · ∞ away.

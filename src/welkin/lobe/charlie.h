@@ -7,18 +7,19 @@
 namespace welkin::lobe {
 
 /// Sheen: sin(θh)^(1/α) · (n·l) with N = V = R, θh = θ/2 and α = roughness², as glTF has it. sin²(θ/2) = s/2,
-/// so the weight is s^(1/2α) (1 − s), but for a factor. It is none at the axis and largest on a ring, which
-/// narrows to the horizon as the roughness falls: there is no mirror, and 0.01 is the least roughness.
+/// so the weight is s^(1/2α) (1 − s), but for a factor. It is 0 on the axis and largest on a ring, which
+/// narrows toward the horizon as the roughness falls: there is no mirror, and 0.01 is the smallest roughness.
 struct Charlie {
   static constexpr const char* kName = "charlie";
-  static constexpr const char* kDescription = "sheen of cloth, D·(n·l): a ring that nears the horizon";
+  static constexpr const char* kDescription =
+      "sheen of cloth, D·(n·l): 0 on the axis, largest on a ring near the horizon";
   static constexpr const char* kSource = "Estevez & Kulla 2017; α = roughness²: glTF KHR_materials_sheen";
 
   double roughness = 0.5;
 
   template <class Visitor>
   void visit_parameters(Visitor&& visit) {
-    visit("roughness", roughness, 0.01, 1.0, "√α; at 0 nothing would be left of the lobe");
+    visit("roughness", roughness, 0.01, 1.0, "√α; the lobe vanishes at 0");
   }
 
   bool mirror() const { return false; }

@@ -138,8 +138,8 @@ class ModelOf final : public AnyLobe::Model {
 
  private:
   static auto collector(std::vector<Parameter>& list) {
-    return [&list](const char* name, double& value, double lowest, double highest, const char* text) {
-      list.push_back({name, value, lowest, highest, text});
+    return [&list](const char* name, double& value, double minimum, double maximum, const char* text) {
+      list.push_back({name, value, minimum, maximum, text});
     };
   }
 

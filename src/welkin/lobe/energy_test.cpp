@@ -9,7 +9,7 @@ namespace welkin::lobe {
 namespace {
 
 /// Lambert: sin²θ = share; cos^n: 1 − cos^(n+1) θ = share; an even sphere: s/2 = share. Error 1e-9 radians.
-TEST(Energy, IsHeldWithinTheClosedFormsAngles) {
+TEST(Energy, ConesMatchTheClosedForms) {
   for (const double share : {0.01, 0.5, 0.9, 0.99}) {
     EXPECT_NEAR(energy_cone_angle(AnyLobe::make("lambert"), share), std::asin(std::sqrt(share)), 1e-9);
     for (const double n : {0.0, 2.5, 50.0, 1e6}) {

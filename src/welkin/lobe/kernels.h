@@ -14,7 +14,7 @@ using LegendreSums = void (*)(const double* s, const double* weights, std::size_
 /// Arrays of float that a Weights is given hold a multiple of this many values.
 inline constexpr std::size_t kLanes = 16;
 
-/// `index` is the place in AllLobes.
+/// `index` is the index in AllLobes.
 Weights weights_baseline(std::size_t index);
 Weights weights_avx2(std::size_t index);
 PointSums point_sums_baseline(std::size_t index);

@@ -99,9 +99,9 @@ struct Legendre {
   }
 
   static void block(const double* s, const double* weights, int degree, double* sums) {
-    Pack place[kPacks], weight[kPacks], value[kPacks], difference[kPacks];
+    Pack position[kPacks], weight[kPacks], value[kPacks], difference[kPacks];
     for (std::size_t k = 0; k < kPacks; ++k) {
-      place[k] = Pack::load_unaligned(s + k * kStep);
+      position[k] = Pack::load_unaligned(s + k * kStep);
       weight[k] = Pack::load_unaligned(weights + k * kStep);
       value[k] = Pack(1.0);
       difference[k] = Pack(0.0);
@@ -111,7 +111,7 @@ struct Legendre {
       Pack sum(0.0);
       for (std::size_t k = 0; k < kPacks; ++k) {
         sum += weight[k] * value[k];
-        difference[k] = keep * difference[k] - bend * place[k] * value[k];
+        difference[k] = keep * difference[k] - bend * position[k] * value[k];
         value[k] += difference[k];
       }
       sums[l] += xsimd::hadd(sum);

@@ -6,10 +6,10 @@
 
 namespace welkin::lobe {
 
-/// max(cos θ, 0), of integral π: what a matt surface facing the axis gathers.
+/// max(cos θ, 0), of integral π: what a diffuse surface facing the axis receives.
 struct Lambert {
   static constexpr const char* kName = "lambert";
-  static constexpr const char* kDescription = "matt surfaces: diffuse light, irradiance over π";
+  static constexpr const char* kDescription = "diffuse surfaces: irradiance over π";
   static constexpr const char* kSource = "Lambert 1760";
 
   bool mirror() const { return false; }

@@ -9,7 +9,7 @@
 /// What the tests of lobes share.
 namespace welkin::lobe::cases {
 
-/// Every registered lobe at its defaults, and at narrow, wide and odd parameters.
+/// Every registered lobe at its defaults, and at narrow, wide and unusual parameters.
 inline std::vector<AnyLobe> all_lobes() {
   std::vector<AnyLobe> list;
   for (const std::string& name : lobe_names()) list.push_back(AnyLobe::make(name));
@@ -28,8 +28,8 @@ inline std::vector<AnyLobe> all_lobes() {
   return list;
 }
 
-/// Places from 0 to 2: powers of two toward 0, toward the horizon from both sides, and an even lattice.
-inline std::vector<double> places() {
+/// Values of s from 0 to 2: powers of two toward 0, toward the horizon from both sides, and an even lattice.
+inline std::vector<double> s_values() {
   std::vector<double> list{0, 1, 2};
   for (double small = 0.5; small > 1e-14; small /= 2) {
     for (const double s : {small, 1 - small, 1 + small, 2 - small}) list.push_back(s);
@@ -40,13 +40,13 @@ inline std::vector<double> places() {
 
 /// The largest weight on a fine lattice.
 inline double largest_weight(const AnyLobe& lobe) {
-  double most = 0;
-  for (const double s : places()) most = std::max(most, lobe.weight(s));
+  double maximum = 0;
+  for (const double s : s_values()) maximum = std::max(maximum, lobe.weight(s));
   for (int i = 0; i < 2000; ++i) {
     const double half_sine = std::sin(0.5 * 3.14159265358979 * i / 2000);
-    most = std::max(most, lobe.weight(2 * half_sine * half_sine));
+    maximum = std::max(maximum, lobe.weight(2 * half_sine * half_sine));
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace welkin::lobe::cases

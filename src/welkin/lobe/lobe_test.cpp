@@ -14,7 +14,7 @@
 namespace welkin::lobe {
 namespace {
 
-TEST(Lobe, MakesEveryNameAndTellsItAgain) {
+TEST(Lobe, EveryNameMakesALobeOfThatName) {
   for (const std::string& name : lobe_names()) {
     const AnyLobe lobe = AnyLobe::make(name);
     EXPECT_EQ(lobe.name(), name);
@@ -30,7 +30,7 @@ TEST(Lobe, ReadsItsOwnSpecBack) {
     const AnyLobe lobe = AnyLobe::make(spec), again = AnyLobe::make(lobe.spec());
     EXPECT_EQ(lobe.spec(), again.spec());
     if (lobe.is_mirror()) continue;
-    for (const double s : cases::places()) EXPECT_EQ(lobe.weight(s), again.weight(s)) << spec;
+    for (const double s : cases::s_values()) EXPECT_EQ(lobe.weight(s), again.weight(s)) << spec;
   }
 }
 
@@ -71,7 +71,7 @@ TEST(Lobe, HasARoughnessWhereItSaysSo) {
 
 TEST(Lobe, WeightsAreFiniteAndNeverNegative) {
   for (const AnyLobe& lobe : cases::all_lobes()) {
-    for (const double s : cases::places()) {
+    for (const double s : cases::s_values()) {
       const double weight = lobe.weight(s);
       EXPECT_TRUE(std::isfinite(weight) && weight >= 0) << lobe.spec() << " at " << s;
     }
@@ -148,7 +148,7 @@ TEST(Lobe, FallsToAboutHalfAtItsWidth) {
 /// The contract of AnyLobe::weights, by both instruction sets.
 TEST(Lobe, KernelsAgreeWithDoubles) {
   std::vector<float> s;
-  for (const double place : cases::places()) s.push_back(static_cast<float>(place));
+  for (const double value : cases::s_values()) s.push_back(static_cast<float>(value));
   for (float small = 1; small > 1e-18f; small /= 3) s.push_back(small);
   const std::size_t count = s.size();
   s.resize((count + kLanes - 1) / kLanes * kLanes, 0.5f);

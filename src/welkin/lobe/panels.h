@@ -6,7 +6,7 @@
 
 namespace welkin::lobe {
 
-/// Places s and weights of a quadrature of the lobe over the sphere: Σ weights[i] f(s[i]) = 2π ∫ w(s) f(s)
+/// Nodes s and weights of a quadrature of the lobe over the sphere: Σ weights[i] f(s[i]) = 2π ∫ w(s) f(s)
 /// ds. Those where w is 0 are left out.
 struct LobeNodes {
   std::vector<double> s, weights;

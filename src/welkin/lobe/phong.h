@@ -7,11 +7,11 @@
 
 namespace welkin::lobe {
 
-/// max(cos θ, 0)^exponent about the mirrored ray. Its roughness is ρ = 1/exponent, so that a chain over ρ is
+/// max(cos θ, 0)^exponent about the reflected ray. Its roughness is ρ = 1/exponent, so that a chain over ρ is
 /// Lo(r) = ks ∫ L(l) (r·l)^(1/ρ) dω; ρ = 0, exponent infinite, is a mirror, and ρ = 1 the Lambert lobe.
 struct Phong {
   static constexpr const char* kName = "phong";
-  static constexpr const char* kDescription = "cosine power about the mirrored ray; roughness is 1/exponent";
+  static constexpr const char* kDescription = "cosine power about the reflected ray; roughness is 1/exponent";
   static constexpr const char* kSource = "Phong 1975; Heidrich & Seidel 1999";
 
   double exponent = 50;

@@ -82,7 +82,7 @@ std::unique_ptr<Model> model_of(Table table, std::string origin) {
   return made;
 }
 
-/// The table behind `table,`.
+/// The table named after `table,`.
 std::unique_ptr<Model> table_from_file(std::string_view assignment) {
   constexpr std::string_view kFile = "file=";
   if (assignment.substr(0, kFile.size()) != kFile || assignment == kFile) {
@@ -131,8 +131,8 @@ AnyLobe AnyLobe::from_table(std::string_view name, std::span<const double> degre
 
 AnyLobe AnyLobe::from_model(std::shared_ptr<const Model> model) {
   require(model != nullptr, "a lobe needs a model");
-  require(model->mirror() || (model->width() > 0 && model->width() <= kPi),
-          "the width of a lobe is over 0 and at most π");
+  require(model->mirror() || (model->width() >= 1e-7 && model->width() <= kPi),
+          "the width of a lobe is 1e-7 to π radians");
   return AnyLobe(std::move(model));
 }
 

@@ -58,7 +58,7 @@ constexpr Curve kCurves[] = {
      [](double roughness, int last) { return last * std::sqrt(roughness); }},
 };
 
-// three.js counts m, the binary logarithm of a level's face size, and goes on below its smallest face of 16
+// three.js counts m, the binary logarithm of a level's face size, and continues below its smallest face of 16
 // with levels of that size: m = 3 … −2.
 struct Knot {
   double roughness, size;
@@ -152,12 +152,13 @@ void RoughnessCurve::check_levels(int levels) const {
 }
 
 double RoughnessCurve::roughness(double level, int levels) const {
+  require(level == level, "a level is a number");
   check_levels(levels);
-  const double place = std::clamp(level, 0.0, levels - 1.0);
-  if (list_.empty()) return curve_named(text_)->roughness(place, levels - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double position = std::clamp(level, 0.0, levels - 1.0);
+  if (list_.empty()) return curve_named(text_)->roughness(position, levels - 1);
+  const auto below = static_cast<std::size_t>(position);
   if (below + 1 == list_.size()) return list_.back();
-  return list_[below] + (place - static_cast<double>(below)) * (list_[below + 1] - list_[below]);
+  return list_[below] + (position - static_cast<double>(below)) * (list_[below + 1] - list_[below]);
 }
 
 double RoughnessCurve::level_of(double roughness, int levels) const {

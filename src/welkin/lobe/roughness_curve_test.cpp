@@ -15,7 +15,7 @@ std::vector<RoughnessCurve> all_curves() {
   return list;
 }
 
-TEST(RoughnessCurve, TellsItsNameAgain) {
+TEST(RoughnessCurve, ReportsItsName) {
   for (const RoughnessCurve& curve : all_curves()) {
     EXPECT_EQ(RoughnessCurve::from_name(curve.text()).text(), curve.text());
     EXPECT_FALSE(curve.description().empty());

@@ -10,13 +10,13 @@
 namespace welkin::lobe {
 
 /// A user's lobe: values at ascending angles from 0, linear in the angle between them, 0 beyond the last.
-/// Held in radians and scaled to a largest value of 1.
+/// Stored in radians and scaled to a largest value of 1.
 struct Table {
   static constexpr const char* kName = "table";
   static constexpr const char* kDescription = "your own: a file of angles in degrees and weights";
   static constexpr const char* kSource = "the table";
 
-  std::string origin;  ///< what stands behind `table,` in the spec
+  std::string origin;  ///< what follows `table,` in the spec
   std::vector<double> angles{0, kPi / 2}, values{1, 0};
 
   bool mirror() const { return false; }

@@ -1,5 +1,6 @@
 #include "welkin/lobe/table_file.h"
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -13,17 +14,21 @@
 namespace welkin::lobe {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 constexpr std::string_view kBlank = " \t\r\f\v";
 
 std::string read_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(ErrorKind::not_found, path, "cannot be opened");
-  std::string text(kMostBytes + 1, '\0');
+  if (!in)
+    throw Error(errno == EACCES   ? ErrorKind::denied
+                : errno == ENOENT ? ErrorKind::not_found
+                                  : ErrorKind::system,
+                path, "cannot be opened");
+  std::string text(kMaxBytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad()) throw Error(ErrorKind::system, path, "cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMostBytes)
+  if (text.size() > kMaxBytes)
     throw Error(ErrorKind::too_large, path, "is over 1 MiB, more than a table of a lobe may have");
   return text;
 }

@@ -10,7 +10,7 @@ namespace welkin::lobe {
 /// is the mean of the sphere; for large κ a Gaussian of σ = 1/√κ radians.
 struct VonMisesFisher {
   static constexpr const char* kName = "vmf";
-  static constexpr const char* kDescription = "von Mises–Fisher: a Gaussian on the sphere, smooth all over";
+  static constexpr const char* kDescription = "von Mises–Fisher: a Gaussian on the sphere, smooth everywhere";
   static constexpr const char* kSource = "Fisher 1953";
 
   double kappa = 50;

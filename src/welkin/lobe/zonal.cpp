@@ -23,6 +23,8 @@ LegendreSums best_legendre_sums() {
 }  // namespace
 
 std::vector<double> legendre_sums(std::vector<double> s, std::vector<double> weights, int degree) {
+  require(degree >= 0 && s.size() == weights.size(),
+          "sums of Legendre polynomials take as many weights as s");
   // Filled up with weights of 0 to a whole number of kernel steps.
   const std::size_t whole = (s.size() + kLanes - 1) / kLanes * kLanes;
   s.resize(whole);
@@ -67,13 +69,13 @@ ZonalTail zonal_tail(const std::vector<double>& coefficients) {
   return tail;
 }
 
-int degree_for(const AnyLobe& lobe, double tolerance, int most) {
+int degree_for(const AnyLobe& lobe, double tolerance, int max_degree) {
   for (int tried = 16;; tried *= 2) {
     const ZonalTail tail = zonal_tail(zonal_coefficients(lobe, 2 * tried + 16));
     const auto enough = std::find_if(tail.largest.begin(), tail.largest.begin() + tried + 1,
                                      [&](double size) { return size <= tolerance; });
     const int found = static_cast<int>(enough - tail.largest.begin());
-    if (found <= tried || tried >= most) return std::min(found, most);
+    if (found <= tried || tried >= max_degree) return std::min(found, max_degree);
   }
 }
 

@@ -31,8 +31,8 @@ struct ZonalTail {
 /// The tail of coefficients as zonal_coefficients gives them.
 WELKIN_API ZonalTail zonal_tail(const std::vector<double>& coefficients);
 
-/// The least degree L such that no |λ_l| of L < l ≤ 2L + 16 is above `tolerance` > 0; `most` where that is
-/// smaller. A lobe cut at the horizon decays as l^−2.5 there, a smooth one exponentially.
-WELKIN_API int degree_for(const AnyLobe& lobe, double tolerance, int most);
+/// The least degree L such that no |λ_l| of L < l ≤ 2L + 16 is above `tolerance` > 0; `max_degree` where that
+/// is smaller. A lobe cut at the horizon decays as l^−2.5 there, a smooth one exponentially.
+WELKIN_API int degree_for(const AnyLobe& lobe, double tolerance, int max_degree);
 
 }  // namespace welkin::lobe

@@ -57,6 +57,7 @@ std::uint64_t sanitize_row(const float* const (&rows)[3], float* row, int width,
 }  // namespace
 
 std::uint64_t sanitize(Map& map, float replacement) {
+  map.check();
   const int width = map.width(), height = map.height(), channels = map.channels();
   const std::ptrdiff_t values = static_cast<std::ptrdiff_t>(width) * channels;
 
@@ -96,6 +97,7 @@ std::uint64_t sanitize(Map& map, float replacement) {
 }
 
 void scale(Map& map, float factor) {
+  map.check();
   std::vector<float> factors;
   for (const std::string& name : map.channel_names) factors.push_back(name == "A" ? 1.0f : factor);
   // The borders too: what lies past an edge is a weighted sum of texels.

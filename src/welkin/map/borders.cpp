@@ -1,5 +1,7 @@
 #include "welkin/map/borders.h"
 
+#include "welkin/base/error.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -19,7 +21,7 @@ struct Texel {
 
 enum class Fill : std::uint8_t { exact, interpolated, unknown };
 
-/// Which texels of a row are places of the map.
+/// Which texels of a row are valid.
 class RowMask {
  public:
   explicit RowMask(int width)
@@ -98,8 +100,9 @@ struct Position {
 };
 
 Position position_of(const AnyParameterization& p, const Level& level, const Vec3d& direction) {
-  const auto place = p.from_sphere(direction);
-  return {static_cast<int>(place.chart), place.u * level.width() - 0.5, place.v * level.height() - 0.5};
+  const auto position = p.from_sphere(direction);
+  return {static_cast<int>(position.chart), position.u * level.width() - 0.5,
+          position.v * level.height() - 0.5};
 }
 
 /// Weights of Keys' cubic (a = −½) for texels −1, 0, 1, 2 of a fraction.
@@ -114,7 +117,7 @@ void cubic_weights(double f, double* w) {
 /// Later passes read so many texels past a chart's edge.
 constexpr int kReach = 2;
 
-/// What of a parameterization's charts are places of the map.
+/// How much of a parameterization's charts is valid, and whether they cover the sphere.
 struct Extent {
   bool full_charts;  ///< all of every chart
   bool whole_world;  ///< and every direction is in one
@@ -167,7 +170,7 @@ int texel_before(double x, int size) {
   return static_cast<int>(std::floor(clamp(x, -1.0, static_cast<double>(size))));
 }
 
-/// Later passes: the whole Catmull–Rom kernel, borders included, held to the range of the texels that it
+/// Later passes: the whole Catmull–Rom kernel, borders included, clamped to the range of the texels that it
 /// reads.
 void later_value(const Level& level, const Position& position, float* out) {
   const double x = clamp(position.x, -1.0, static_cast<double>(level.width()));
@@ -207,8 +210,8 @@ bool reads_chart_alone(const Level& level, const Position& position) {
 
 /// Texels without a value take the mean of their neighbours that have one, ring by ring. Texels inside a
 /// chart that are neither valid nor in `known` have none and get none.
-void spread(const AnyParameterization& p, Level& level, bool whole, const std::vector<Texel>& known,
-            std::vector<Texel> missing) {
+void fill_from_neighbours(const AnyParameterization& p, Level& level, bool whole,
+                          const std::vector<Texel>& known, std::vector<Texel> missing) {
   if (missing.empty()) return;
   const int channels = level.channels(), width = level.width(), height = level.height();
   std::vector<std::uint8_t> unknown;
@@ -266,6 +269,7 @@ void spread(const AnyParameterization& p, Level& level, bool whole, const std::v
 }  // namespace
 
 void fill_borders(const AnyParameterization& p, Level& level) {
+  require(level.charts() == p.charts(), "a level has another number of charts than its parameterization");
   std::vector<Texel> texels;
   const bool whole = p.full_charts();
   if (!whole) collect_rim(p, level, texels);
@@ -298,7 +302,7 @@ void fill_borders(const AnyParameterization& p, Level& level) {
     (fills[i] == Fill::unknown ? missing : known).push_back(texels[i]);
     if (fills[i] == Fill::interpolated) any_interpolated = true;
   }
-  spread(p, level, whole, known, std::move(missing));
+  fill_from_neighbours(p, level, whole, known, std::move(missing));
   if (!any_interpolated) return;
   // The first of these reads the bilinear values of the first pass beside an edge, the second what it has put
   // there.

@@ -16,13 +16,13 @@ void for_each_border_texel(const Map& map, int width, const Body& body) {
     for (int y = -width; y < map.height() + width; ++y) {
       for (int x = -width; x < map.width() + width; ++x) {
         const bool inside = x >= 0 && x < map.width() && y >= 0 && y < map.height();
-        if (!inside || !is_place(map, chart, x, y)) body(chart, x, y);
+        if (!inside || !is_valid_texel(map, chart, x, y)) body(chart, x, y);
       }
     }
   }
 }
 
-/// Past their edges these go on in texels of another edge, or of another part of the same one.
+/// Past their edges these continue in texels of another edge, or of another part of the same one.
 TEST(BordersTest, ExactTopologiesRepeatTexelsBitForBit) {
   for (const char* name : {"latlong", "octahedral", "octahedral-rect", "octahedral-equal-area"}) {
     // Even around, so that the texel across a pole is one.
@@ -30,19 +30,19 @@ TEST(BordersTest, ExactTopologiesRepeatTexelsBitForBit) {
     if (name[0] == 'o') map = Map(map.parameterization, 17, 17, 2);
     // Every texel has a value of its own.
     float next = 1;
-    for_each_place(map, [&](int chart, int x, int y) {
+    for_each_valid_texel(map, [&](int chart, int x, int y) {
       map.level.chart(chart).at(x, y)[0] = next++;
       map.level.chart(chart).at(x, y)[1] = -next;
     });
     fill_borders(map);
     for_each_border_texel(map, kBorder, [&](int chart, int x, int y) {
       const double u = (x + 0.5) / map.width(), v = (y + 0.5) / map.height();
-      const auto place = map.parameterization.from_sphere(map.parameterization.to_sphere(chart, u, v));
-      const int i = static_cast<int>(std::floor(place.u * map.width()));
-      const int j = static_cast<int>(std::floor(place.v * map.height()));
+      const auto position = map.parameterization.from_sphere(map.parameterization.to_sphere(chart, u, v));
+      const int i = static_cast<int>(std::floor(position.u * map.width()));
+      const int j = static_cast<int>(std::floor(position.v * map.height()));
       for (int c = 0; c < 2; ++c) {
         ASSERT_EQ(map.level.chart(chart).at(x, y)[c],
-                  map.level.chart(static_cast<int>(place.chart)).at(i, j)[c])
+                  map.level.chart(static_cast<int>(position.chart)).at(i, j)[c])
             << name << " " << x << "," << y << " is " << i << "," << j;
       }
     });
@@ -54,7 +54,7 @@ TEST(BordersTest, ExactTopologiesRepeatTexelsBitForBit) {
 TEST(BordersTest, KnownNeighbours) {
   Map map(sphere::AnyParameterization::make("latlong"), 8, 4, 1);
   float next = 0;
-  for_each_place(map, [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = next++; });
+  for_each_valid_texel(map, [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = next++; });
   fill_borders(map);
   const ImageView<const float> latlong = std::as_const(map.level).chart(0);
   EXPECT_EQ(*latlong.at(-1, 2), *latlong.at(7, 2));
@@ -62,7 +62,8 @@ TEST(BordersTest, KnownNeighbours) {
   EXPECT_EQ(*latlong.at(1, -1), *latlong.at(5, 0));
   EXPECT_EQ(*latlong.at(6, 4), *latlong.at(2, 3));
   Map folded(sphere::AnyParameterization::make("octahedral"), 8, 8, 1);
-  for_each_place(folded, [&](int chart, int x, int y) { *folded.level.chart(chart).at(x, y) = next++; });
+  for_each_valid_texel(folded,
+                       [&](int chart, int x, int y) { *folded.level.chart(chart).at(x, y) = next++; });
   fill_borders(folded);
   const ImageView<const float> octahedral = std::as_const(folded.level).chart(0);
   for (int i = 0; i < 8; ++i) {
@@ -76,7 +77,7 @@ TEST_P(BordersTest, ConstantsReachAsFarAsKernelsDo) {
   for (const int size : {1, 2, 7, 64}) {
     const Map map = rendered(
         GetParam(), size, [](const Vec3d&) { return 0.375; }, 3);
-    for_each_place(map, [&](int chart, int x, int y) {
+    for_each_valid_texel(map, [&](int chart, int x, int y) {
       for (int j = -kBorder; j <= kBorder; ++j) {
         for (int i = -kBorder; i <= kBorder; ++i) {
           const int column = std::clamp(x + i, -kBorder, map.width() + kBorder - 1);
@@ -115,8 +116,8 @@ TEST(BordersTest, CubesAreInterpolatedToTheSecondOrderAtLeast) {
 
 TEST(BordersTest, NothingPastTheRimIsTheMeanOfWhatIsBesideIt) {
   Map map(sphere::AnyParameterization::make("sky-latlong"), 16, 4, 1);
-  for_each_place(map,
-                 [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = static_cast<float>(x); });
+  for_each_valid_texel(
+      map, [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = static_cast<float>(x); });
   fill_borders(map);
   // Below the horizon: three neighbours above.
   EXPECT_NEAR(*map.level.chart(0).at(5, 4), 5, 1e-6);

@@ -1,5 +1,7 @@
 #include "welkin/map/chain.h"
 
+#include "welkin/base/error.h"
+
 #include <algorithm>
 
 namespace welkin {
@@ -22,6 +24,7 @@ ChainNotes ChainNotes::of_level(int level) const {
 }
 
 ChartSize chain_size(ChartSize finest, int level) {
+  require(level >= 0 && level < 31, "levels of a chain are 0 to 30");
   return {std::max(1, finest.width >> level), std::max(1, finest.height >> level)};
 }
 

@@ -13,10 +13,10 @@ Level::Level(int charts, int width, int height, int channels, PixelContents cont
   require(charts > 0, "a level has at least one chart");
   constexpr int kLargestSide = 1 << 20;
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide / charts) {
-    throw Error(ErrorKind::bad_request, "a map of " + std::to_string(charts) + " charts of " +
-                                            std::to_string(width) + "×" + std::to_string(height) +
-                                            " texels cannot be made (a side is 1 to " +
-                                            std::to_string(kLargestSide / charts) + ")");
+    throw Error(width < 1 || height < 1 ? ErrorKind::bad_request : ErrorKind::too_large,
+                "a map of " + std::to_string(charts) + " charts of " + std::to_string(width) + "×" +
+                    std::to_string(height) + " texels cannot be made (a side is 1 to " +
+                    std::to_string(kLargestSide / charts) + ")");
   }
   if (channels < 1 || channels > kMaxChannels) {
     throw Error(ErrorKind::bad_request, "a map has 1 to " + std::to_string(kMaxChannels) + " channels, not " +
@@ -62,6 +62,28 @@ Map::Map(sphere::AnyParameterization which, int width, int height, int channels,
       level(parameterization.charts(), width, height, channels, contents),
       channel_names(default_channel_names(channels)) {}
 
+Map Map::clone() const {
+  Map copy(parameterization, width(), height(), channels(), PixelContents::unset);
+  copy.parameterization = parameterization;
+  copy.channel_names = channel_names;
+  copy.orientation = orientation;
+  const int rows = height() + 2 * kBorder;
+  const std::ptrdiff_t values = static_cast<std::ptrdiff_t>(width() + 2 * kBorder) * channels();
+  for (int chart = 0; chart < charts(); ++chart) {
+    for (int y = -kBorder; y < rows - kBorder; ++y)
+      std::copy_n(level.chart(chart).at(-kBorder, y), values, copy.level.chart(chart).at(-kBorder, y));
+  }
+  return copy;
+}
+
+void Map::check() const {
+  require(charts() == parameterization.charts() && width() > 0 && height() > 0,
+          "a map's level has another number of charts than its parameterization");
+  require(channel_names.size() == static_cast<std::size_t>(channels()),
+          "a map has another number of channels than names for them");
+  require(is_orthonormal(orientation), "a map's orientation is a rotation or a reflection");
+}
+
 Map Map::from_pixels(const sphere::AnyParameterization& which, std::span<const Pixels> charts) {
   if (charts.size() != static_cast<std::size_t>(which.charts())) {
     throw Error(ErrorKind::mismatch, which.name() + " has " + std::to_string(which.charts()) +
@@ -82,6 +104,9 @@ Map Map::from_pixels(const sphere::AnyParameterization& which, const Pixels& cha
 
 void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart,
                         int row, float* out) {
+  require(
+      width > 0 && height > 0 && row >= 0 && row < height && chart >= 0 && chart < parameterization.charts(),
+      "there is no such row of texels");
   constexpr int kBatch = 256;
   alignas(64) float u[kBatch], v[kBatch], density[kBatch], valid[kBatch];
   const float texel_area = 1.0f / (static_cast<float>(width) * static_cast<float>(height));

@@ -82,6 +82,14 @@ struct WELKIN_API Map {
   /// The same of a single chart.
   static Map from_pixels(const sphere::AnyParameterization& parameterization, const Pixels& chart);
 
+  /// A copy of all of it. Maps are large, so nothing copies one unasked.
+  Map clone() const;
+
+  /// Throws Error (bad_request) when the members don't belong together, as code may set them: another number
+  /// of charts than the parameterization has, of names than there are channels, an orientation that isn't
+  /// orthonormal. Functions that take a map call it.
+  void check() const;
+
   int charts() const { return level.charts(); }      ///< how many charts
   int width() const { return level.width(); }        ///< of a chart, texels
   int height() const { return level.height(); }      ///< of a chart, texels

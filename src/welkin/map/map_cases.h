@@ -42,7 +42,7 @@ inline Map make_map(const std::string& spec, int size, int channels = 1) {
   return Map(p, texels(size * side), texels(size / side), channels);
 }
 
-inline bool is_place(const Map& map, int chart, int x, int y) {
+inline bool is_valid_texel(const Map& map, int chart, int x, int y) {
   return map.parameterization.valid(chart, (x + 0.5) / map.width(), (y + 0.5) / map.height());
 }
 
@@ -52,21 +52,21 @@ inline Vec3d direction_at(const Map& map, int chart, int x, int y) {
          map.parameterization.to_sphere(chart, (x + 0.5) / map.width(), (y + 0.5) / map.height());
 }
 
-/// body(chart, x, y) for all texels that are places of the map.
+/// body(chart, x, y) for all valid texels.
 template <class Body>
-void for_each_place(const Map& map, const Body& body) {
+void for_each_valid_texel(const Map& map, const Body& body) {
   for (int chart = 0; chart < map.charts(); ++chart) {
     for (int y = 0; y < map.height(); ++y) {
       for (int x = 0; x < map.width(); ++x) {
-        if (is_place(map, chart, x, y)) body(chart, x, y);
+        if (is_valid_texel(map, chart, x, y)) body(chart, x, y);
       }
     }
   }
 }
 
-/// Channel c of every place takes (c+1)·f; the borders are filled.
+/// Channel c of every valid texel takes (c+1)·f; the borders are filled.
 inline void render(Map& map, const Function& f) {
-  for_each_place(map, [&](int chart, int x, int y) {
+  for_each_valid_texel(map, [&](int chart, int x, int y) {
     const double value = f(direction_at(map, chart, x, y));
     float* texel = map.level.chart(chart).at(x, y);
     for (int c = 0; c < map.channels(); ++c) texel[c] = static_cast<float>((c + 1) * value);

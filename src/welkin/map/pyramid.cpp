@@ -1,5 +1,7 @@
 #include "welkin/map/pyramid.h"
 
+#include "welkin/base/error.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -53,6 +55,8 @@ void reduce_uniform_row(const float* above, const float* below, float weight_abo
 }  // namespace
 
 Level reduce(const sphere::AnyParameterization& parameterization, const Level& finer, TexelWeight weight) {
+  require(finer.charts() == parameterization.charts(),
+          "a level has another number of charts than its parameterization");
   const int width = (finer.width() + 1) / 2, height = (finer.height() + 1) / 2, channels = finer.channels();
   Level coarser(finer.charts(), width, height, channels);
   const std::vector<Overlap> columns = overlaps(finer.width(), width),

@@ -38,7 +38,7 @@ TEST_P(PyramidTest, ConstantsStayAndSizesHalveRoundedUp) {
     ASSERT_EQ(level.width(), width);
     ASSERT_EQ(level.height(), height);
     const Map seen = map_of(map, level);
-    for_each_place(seen, [&](int chart, int x, int y) {
+    for_each_valid_texel(seen, [&](int chart, int x, int y) {
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(level.chart(chart).at(x, y)[c], 0.75 * (c + 1), 3e-6);
     });
   }
@@ -55,7 +55,7 @@ std::vector<double> shares(int fine, int coarse, int index) {
 
 /// Σ over a level's texels of value × the solid angle of what it averages is the same sum over the finer
 /// level: even sizes and odd ones, three-channel fast path and general one. Coarse texels whose centres lie
-/// outside a disc are no places of the map, so what they would average (a ring of half a texel) is left out
+/// outside a disc are not valid, so what they would average (a ring of half a texel) is left out
 /// of both.
 TEST_P(PyramidTest, EveryLevelKeepsTheEnergyOfTheOneAbove) {
   for (const int size : {16, 17}) {
@@ -73,7 +73,7 @@ TEST_P(PyramidTest, EveryLevelKeepsTheEnergyOfTheOneAbove) {
         for (int j = 0; j < coarser.height(); ++j) {
           const auto down = shares(map.height(), coarser.height(), j);
           for (int i = 0; i < coarser.width(); ++i) {
-            if (!is_place(coarser, chart, i, j)) continue;
+            if (!is_valid_texel(coarser, chart, i, j)) continue;
             const auto across = shares(map.width(), coarser.width(), i);
             double solid_angle = 0;
             for (int y = 0; y < map.height(); ++y) {

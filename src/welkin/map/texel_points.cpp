@@ -11,13 +11,13 @@ namespace {
 
 using sphere::AnyParameterization;
 
-/// A density that changes by this when a cell is cut up has a kink there, or the cell is large.
+/// When subdividing a cell changes its density by more than this, there is a kink or the cell is large.
 constexpr float kPlain = 1e-5f;
 
-/// How often a cell with a kink is cut up at most, and a large one.
+/// How often a cell with a kink is subdivided at most, and a large one.
 constexpr int kKinkDepth = 7, kLargeDepth = 12;
 
-/// Cuts a cell up.
+/// Subdivides a cell.
 class CellPoints {
  public:
   CellPoints(const AnyParameterization& p, const CellLimits& limits, std::vector<TexelPoint>& points)
@@ -156,7 +156,7 @@ class CellPoints {
 
 constexpr std::size_t kBatch = 256;
 
-/// Values of a kernel at one place in each of up to kBatch texels of a row.
+/// Values of a kernel at one position in each of up to kBatch texels of a row.
 struct Batch {
   Batch(ChartSize size, int row, int from, double across, double down)
       : count(std::min(kBatch, static_cast<std::size_t>(size.width - from))) {
@@ -211,7 +211,7 @@ std::vector<TexelKind> texel_kinds(const AnyParameterization& p, ChartSize size,
   const std::size_t tested = by_row ? 1 : width;
   for (std::size_t from = 0; from < tested; from += kBatch) {
     float coarse[kBatch] = {}, fine[kBatch] = {}, valid[kBatch] = {};
-    float places = 0;
+    float points = 0;
     std::size_t count = 0;
     const auto test = [&](double across, double down, float* sums, float share) {
       Batch batch(size, row, static_cast<int>(from), across, down);
@@ -223,7 +223,7 @@ std::vector<TexelKind> texel_kinds(const AnyParameterization& p, ChartSize size,
       if (full) return;
       p.kernels().valid(p.self(), chart, batch.u, batch.v, batch.value, count);
       for (std::size_t i = 0; i < count; ++i) valid[i] += batch.value[i] > 0 ? 1.0f : 0.0f;
-      places += 1;
+      points += 1;
     };
     for (int k = 0; k < 4; ++k) {
       if (!full) test(k % 2, k / 2, nullptr, 0);
@@ -236,7 +236,7 @@ std::vector<TexelKind> texel_kinds(const AnyParameterization& p, ChartSize size,
       TexelKind& kind = kinds[from + i];
       // NaN is not plain.
       if (!(std::fabs(fine[i] - coarse[i]) <= kPlain * coarse[i])) kind = TexelKind::irregular;
-      if (valid[i] < places) kind = valid[i] == 0 ? TexelKind::outside : TexelKind::irregular;
+      if (valid[i] < points) kind = valid[i] == 0 ? TexelKind::outside : TexelKind::irregular;
     }
   }
   if (by_row) std::fill(kinds.begin(), kinds.end(), kinds[0]);

@@ -4,9 +4,9 @@
 
 #include "welkin/map/map.h"
 
-/// What a texel covers, as points to sum over. Gauss's rule of 2×2 points does for most texels; not for those
-/// that the rim of a disc or the side of a triangle cuts, nor where the density has a kink, as along the
-/// diagonals of an octahedron, nor for those that are a good part of the sphere.
+/// The area of a texel as quadrature points. Gauss's rule of 2×2 points suffices for most texels; not for
+/// those that the rim of a disc or the side of a triangle cuts, nor where the density has a kink, as along
+/// the diagonals of an octahedron, nor for those that cover a large part of the sphere.
 namespace welkin {
 
 /// Gauss's two points in 0 … 1: ½ ∓ 1/√12.
@@ -15,7 +15,7 @@ inline constexpr double kGauss[2] = {0.21132486540518713, 0.78867513459481287};
 /// A rectangle of a chart, in its u and v.
 struct ChartCell {
   int chart;
-  double u, v;  ///< its least
+  double u, v;  ///< the smallest
   double width, height;
 
   /// Part `x` of `columns`, `y` of `rows`.
@@ -30,19 +30,19 @@ struct TexelPoint {
   double solid_angle;
 };
 
-/// Gauss's rule of 2×2 points, of a cell that lies within the chart's valid places.
+/// Gauss's rule of 2×2 points, of a cell that lies within the chart's valid positions.
 void append_gauss_points(const sphere::AnyParameterization& p, const ChartCell& cell,
                          std::vector<TexelPoint>& points);
 
-/// How far cells are cut up.
+/// Limits of subdivision.
 struct CellLimits {
-  double solid_angle;  ///< sr: until that would change it by less
+  double solid_angle;  ///< sr: until subdividing changes it by less
   double side = 10;    ///< radians: until points are no farther apart
-  int rim_depth = 3;   ///< so often at a rim, before that is followed in strips
+  int rim_depth = 3;   ///< subdivisions at a rim, before it is followed in strips
 };
 
-/// Points of any cell, cut up to these limits; of its valid part alone. Where a rim bounds it a part is
-/// missed, of a texel about 1e-4, of the quarter of a whole disc 6e-4. None when no place of it is valid.
+/// Points of the valid part of any cell, subdivided to these limits; none when no part is valid. At a rim the
+/// solid angle is too small by about 1e-4 of a texel's, by 6e-4 of that of a quarter of a disc.
 void append_points(const sphere::AnyParameterization& p, const ChartCell& cell, const CellLimits& limits,
                    std::vector<TexelPoint>& points);
 
@@ -52,9 +52,9 @@ double mean_texel(const sphere::AnyParameterization& p, ChartSize size);
 /// A millionth of a texel of average solid angle.
 CellLimits texel_limits(const sphere::AnyParameterization& p, ChartSize size);
 
-/// How a texel is to be summed up.
+/// How a texel is to be integrated.
 enum class TexelKind : unsigned char {
-  outside,    ///< no place of the map
+  outside,    ///< not valid anywhere
   plain,      ///< 2×2 points give its solid angle within 1e-5
   irregular,  ///< append_points
 };

@@ -59,8 +59,8 @@ TEST(TexelPoints, RimsAreFollowed) {
     append_points(p, each.cell, {1e-6}, points);
     EXPECT_NEAR(sum(points) / density / each.area, 1, 1e-3) << each.cell.u << ' ' << each.cell.width;
     for (const TexelPoint& point : points) {
-      const auto place = p.from_sphere(point.direction);
-      EXPECT_TRUE(p.valid(0, place.u, place.v));
+      const auto position = p.from_sphere(point.direction);
+      EXPECT_TRUE(p.valid(0, position.u, position.v));
     }
   }
 }

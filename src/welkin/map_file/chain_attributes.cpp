@@ -15,7 +15,7 @@ constexpr const char* kNormalisationKey = "welkin.normalisation";
 constexpr const char* kSoftwareKey = "welkin.software";
 
 /// Of a side of 2^20 texels, the largest there is.
-constexpr std::size_t kMostLevels = 21;
+constexpr std::size_t kMaxLevels = 21;
 
 std::string list_of(const std::vector<double>& numbers) {
   std::string text;
@@ -28,7 +28,7 @@ std::vector<double> numbers_in(std::string_view text) {
   while (!text.empty()) {
     const std::size_t comma = std::min(text.find(','), text.size());
     const std::optional<double> number = parse_number(text.substr(0, comma));
-    if (!number || *number < 0 || numbers.size() == kMostLevels) return {};
+    if (!number || *number < 0 || numbers.size() == kMaxLevels) return {};
     numbers.push_back(*number);
     text.remove_prefix(std::min(comma + 1, text.size()));
   }

@@ -11,8 +11,8 @@ namespace welkin {
 /// `welkin.normalisation`, `welkin.software`, those that aren't empty.
 std::map<std::string, std::string> attributes_of(const ChainNotes& notes);
 
-/// The reverse. Numbers that are none, not finite or negative make no roughness at all, and neither do more
-/// of them than a chain can have levels; it never throws.
+/// The reverse. The roughness is left out when a number is malformed, not finite or negative, or when there
+/// are more numbers than a chain can have levels. Never throws.
 ChainNotes chain_notes_from(const std::map<std::string, std::string>& attributes);
 
 }  // namespace welkin

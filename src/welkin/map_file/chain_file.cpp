@@ -59,7 +59,7 @@ void check_chain_members(const Chain& chain) {
     if (map.width() != size.width || map.height() != size.height)
       throw Error(ErrorKind::mismatch, level + "is not half as large as the one before");
     if (map.channel_names != finest.channel_names || !(map.orientation == finest.orientation) ||
-        map.parameterization.name() != finest.parameterization.name())
+        !(map.parameterization == finest.parameterization.at_size(map.width(), map.height())))
       throw Error(ErrorKind::mismatch,
                   level + "has other channels, or another orientation or parameterization, than level 0");
   }

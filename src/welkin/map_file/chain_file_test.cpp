@@ -47,14 +47,14 @@ Chain numbered(const std::string& spec, ChartSize finest, int levels, int channe
   return chain;
 }
 
-/// Of places; reading fills what is none.
+/// Of valid texels; reading fills the others.
 void expect_same(const Map& a, const Map& b) {
   ASSERT_EQ(a.parameterization.spec(), b.parameterization.spec());
   ASSERT_EQ(a.width(), b.width());
   ASSERT_EQ(a.height(), b.height());
   ASSERT_EQ(a.channel_names, b.channel_names);
   ASSERT_EQ(a.orientation, b.orientation);
-  cases::for_each_place(a, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(a, [&](int chart, int x, int y) {
     for (int c = 0; c < a.channels(); ++c) {
       ASSERT_EQ(a.level.chart(chart).at(x, y)[c], b.level.chart(chart).at(x, y)[c])
           << a.parameterization.spec() << " chart " << chart << " texel " << x << ", " << y;

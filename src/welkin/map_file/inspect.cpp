@@ -10,7 +10,7 @@
 #include "welkin/map_file/chain_file.h"
 #include "welkin/map_file/map_file_job.h"
 
-/// What a file holds: its own word, the caller's, or a guess.
+/// What a file holds: as it declares, as the caller says, or a guess.
 namespace welkin::map_file {
 namespace {
 
@@ -59,7 +59,7 @@ std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& fil
   return std::nullopt;
 }
 
-/// A declared count, 0 when there is none or it makes no sense.
+/// A declared count, 0 when there is none or it is invalid.
 int positive_number(const std::string& text) {
   const long value = std::strtol(text.c_str(), nullptr, 10);
   return value > 0 && value < (1 << 20) ? static_cast<int>(value) : 0;
@@ -188,8 +188,8 @@ std::vector<ChartSize> level_charts(const io::FileInfo& file, const ReadMapOptio
   };
   std::vector<ChartSize> charts{finest};
   if (info.border > 0) return charts;
-  constexpr int kMostLevels = 21;  // of a side of 2^20 texels
-  for (int level = 1; level < std::min(file.levels, kMostLevels); ++level) {
+  constexpr int kMaxLevels = 21;  // of a side of 2^20 texels
+  for (int level = 1; level < std::min(file.levels, kMaxLevels); ++level) {
     const std::vector<std::size_t> pictures = pictures_of(file, level);
     if (pictures.size() < first + needed) break;
     const io::PartInfo& part = file.parts[pictures[first]];
@@ -231,6 +231,7 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   const Declaration declaration = declaration_for(path, file, options);
   info.reason = declaration.reason;
   if (options.orientation) {
+    require(is_orthonormal(*options.orientation), "the orientation of a map is a rotation or a reflection");
     info.orientation = *options.orientation;
   } else if (const auto declared = matrix_from(attribute(file, kOrientationKey))) {
     info.orientation = *declared;

@@ -286,6 +286,7 @@ Layout with_faces(const Layout& layout, const sphere::AnyParameterization& p, st
 }
 
 std::optional<ChartSize> chart_size_in(const Layout& layout, int picture_width, int picture_height) {
+  require(layout.columns > 0 && layout.rows > 0, "a layout has at least one column and one row");
   if (picture_width % layout.columns != 0 || picture_height % layout.rows != 0) return std::nullopt;
   return ChartSize{picture_width / layout.columns, picture_height / layout.rows};
 }
@@ -310,10 +311,15 @@ void check_cell(const LayoutCell& cell, ChartSize picture, ChartSize chart) {
           "a chart and the cell of its picture have other sizes");
 }
 
+void check_channels(int a, int b) {
+  require(a == b, "a chart and its picture have other numbers of channels");
+}
+
 }  // namespace
 
 void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart) {
   check_cell(cell, {picture.width, picture.height}, {chart.width, chart.height});
+  check_channels(chart.channels, picture.channels);
   const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
   for (int y = 0; y < picture.height; ++y) {
     copy_texels(picture.row(y), picture.channels, chart.data + map.start + y * map.step_y, map.step_x,
@@ -323,6 +329,7 @@ void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, Imag
 
 void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture) {
   check_cell(cell, {picture.width, picture.height}, {chart.width, chart.height});
+  check_channels(chart.channels, picture.channels);
   copy_to_cell_rows(cell, chart, 0, picture);
 }
 
@@ -332,6 +339,7 @@ void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int
   require(rows.width == (on_its_side ? chart.height : chart.width) && first >= 0 &&
               first + rows.height <= (on_its_side ? chart.width : chart.height),
           "a chart and the rows of its picture have other sizes");
+  check_channels(chart.channels, rows.channels);
   const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
   for (int y = 0; y < rows.height; ++y) {
     copy_texels(chart.data + map.start + (first + y) * map.step_y, map.step_x, rows.row(y), rows.channels,
@@ -342,8 +350,12 @@ void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int
 void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
                ImageView<float> rows) {
   // All cells are of one size, so those on their side are square.
+  require(charts.size() == layout.cells.size() && !charts.empty(),
+          "a layout is drawn of one picture for each chart");
   const int width = charts.front().width, height = charts.front().height;
-  assert(rows.width == layout.columns * width && first + rows.height <= layout.rows * height);
+  require(rows.width == layout.columns * width && first >= 0 && first + rows.height <= layout.rows * height &&
+              rows.channels == charts.front().channels,
+          "the rows to draw lie outside the layout's picture, or have another number of channels");
   for (int y = 0; y < rows.height;) {
     const int row = (first + y) / height, inside = (first + y) % height;
     const int count = std::min(height - inside, rows.height - y);

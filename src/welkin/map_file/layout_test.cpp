@@ -111,15 +111,15 @@ TEST(Layout, EveryLayoutHasEveryChartOnceInACellOfItsOwn) {
     const auto p = AnyParameterization::make(name);
     for (const Layout& layout : layouts_of(p)) {
       std::set<int> charts;
-      std::set<std::pair<int, int>> places;
+      std::set<std::pair<int, int>> positions;
       for (const LayoutCell& cell : layout.cells) {
         charts.insert(cell.chart);
-        places.insert({cell.column, cell.row});
+        positions.insert({cell.column, cell.row});
         EXPECT_LT(cell.column, layout.columns);
         EXPECT_LT(cell.row, layout.rows);
       }
       EXPECT_EQ(static_cast<int>(charts.size()), p.charts()) << name << ":" << layout.name;
-      EXPECT_EQ(places.size(), charts.size()) << name << ":" << layout.name;
+      EXPECT_EQ(positions.size(), charts.size()) << name << ":" << layout.name;
     }
   }
 }
@@ -141,7 +141,7 @@ TEST(Layout, CopyingToACellAndBackKeepsTheChart) {
   }
 }
 
-TEST(MapShape, ParsesAndTellsItselfAgain) {
+TEST(MapShape, ParsesAndPrintsTheSameText) {
   for (const char* text :
        {"latlong", "cube:vcross", "fisheye-equidistant,fov=200", "paraboloid:vstrip", "healpix:grid"}) {
     EXPECT_EQ(parse_map_shape(text).text(), text);

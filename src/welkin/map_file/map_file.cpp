@@ -74,13 +74,17 @@ MapReader::MapReader(std::span<const std::byte> bytes, const std::string& name, 
 }
 
 void MapReader::set_faces(std::string faces) {
-  options_.faces = std::move(faces);
-  info_ = inspect(path_, reader_->info(), options_);
+  ReadMapOptions changed = options_;
+  changed.faces = std::move(faces);
+  info_ = inspect(path_, reader_->info(), changed);
+  options_ = changed;
 }
 
 void MapReader::set_orientation(const Matrix3& orientation) {
-  options_.orientation = orientation;
-  info_ = inspect(path_, reader_->info(), options_);
+  ReadMapOptions changed = options_;
+  changed.orientation = orientation;
+  info_ = inspect(path_, reader_->info(), changed);
+  options_ = changed;
 }
 
 void MapReader::set_level(int level) {

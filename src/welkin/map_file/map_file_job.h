@@ -67,7 +67,8 @@ struct Destination {
       : path(format_name), format(io::capabilities(format_name)), sink(&to) {}
 };
 
-/// What the format of a file of this name holds; of a name that tells no format, next to nothing.
+/// What the format of a file of this name holds; of a name without a known format, those of
+/// no format.
 const io::Capabilities& capabilities_or_none(const std::filesystem::path& path);
 
 /// The pictures of a level: indices into the file's parts.

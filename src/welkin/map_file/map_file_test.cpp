@@ -48,7 +48,7 @@ void expect_same(const Map& a, const Map& b) {
   for (int chart = 0; chart < a.charts(); ++chart) {
     for (int y = 0; y < a.height(); ++y) {
       for (int x = 0; x < a.width(); ++x) {
-        // Reading fills what is no place of the map, as it fills borders.
+        // Reading fills texels that are not valid, as it fills borders.
         if (!a.parameterization.valid(chart, (x + 0.5) / a.width(), (y + 0.5) / a.height())) continue;
         for (int c = 0; c < a.channels(); ++c) {
           ASSERT_EQ(a.level.chart(chart).at(x, y)[c], b.level.chart(chart).at(x, y)[c])

@@ -65,7 +65,7 @@ TEST(SafetyBorder, LevelServedNeedsWholeTexelsOfBorder) {
   EXPECT_EQ(coarsest_level_served(8, 36), 2);
 }
 
-/// A wide border goes on as the narrow one begins, also where it is read along directions.
+/// A wide border continues as the narrow one begins, also where it is read along directions.
 TEST(SafetyBorder, WideBordersOfCubesFollowTheSphere) {
   Map map(sphere::AnyParameterization::make("cube"), 32, 32, 1);
   for (int chart = 0; chart < 6; ++chart) {

@@ -48,7 +48,7 @@ class Pictures {
  public:
   Pictures(const Layout& placed, int border) : placed_(placed), border_(border) {}
 
-  /// The picture of one cell, as a part without a name or a place. Refers to the map, and to what this keeps
+  /// The picture of one cell, as a part without name or position. Refers to the map, and to what this keeps
   /// until the next `drop`.
   io::WritePart of_cell(const Map& map, const LayoutCell& cell) {
     const ImageView<const float> chart = chart_of(map, cell.chart);
@@ -128,7 +128,7 @@ MapShape parse_map_shape_for(const fs::path& path, std::string_view text, int le
 
 MapShape shape_for_copy(const MapFileInfo& from, const fs::path& to, int levels) {
   require(from.shape.has_value(), "the shape of the map to copy is unknown");
-  // By its name: the turns that the faces were given are undone by reading it.
+  // By its name: reading it undoes the turns that the faces were given.
   MapShape shape = parse_map_shape(from.shape->text());
   if (io::capabilities(from.image.format).texture != capabilities_or_none(to).texture)
     shape.layout = default_layout(shape.parameterization, to, levels);
@@ -144,6 +144,7 @@ std::vector<fs::path> files_of(const fs::path& path, const sphere::AnyParameteri
 
 io::WriteReport map_file::write_levels(const Destination& destination, std::span<const Map* const> levels,
                                        const Layout& layout, const WriteMapOptions& options) {
+  for (const Map* level : levels) level->check();
   const Map& finest = *levels.front();
   const auto& p = finest.parameterization;
   Layout placed = layout_for(layout, p, finest.orientation);

@@ -37,7 +37,7 @@ TEST(Rotation, QuaternionsAreRotationsAndScaleDoesNotMatter) {
   EXPECT_LT(length(turned - Vec3d{-1, 2, -3}), 1e-15);
 }
 
-TEST(Rotation, OrthonormalizeKeepsHandednessAndMendsRounding) {
+TEST(Rotation, OrthonormalizeKeepsHandednessAndRemovesRoundingErrors) {
   for (const double side : {1.0, -1.0}) {
     Matrix3 m = rotation_from_yaw_pitch_roll(20, 30, 40);
     for (double& value : m.rows[0]) value *= side;
@@ -45,10 +45,10 @@ TEST(Rotation, OrthonormalizeKeepsHandednessAndMendsRounding) {
     for (auto& row : rounded.rows) {
       for (double& value : row) value = std::round(value * 1e5) / 1e5;
     }
-    const Matrix3 mended = orthonormalize(rounded);
-    EXPECT_NEAR(determinant(mended), side, 1e-12);
-    expect_near(mended * transpose(mended), Matrix3{}, 1e-12);
-    expect_near(mended, m, 2e-5);
+    const Matrix3 repaired = orthonormalize(rounded);
+    EXPECT_NEAR(determinant(repaired), side, 1e-12);
+    expect_near(repaired * transpose(repaired), Matrix3{}, 1e-12);
+    expect_near(repaired, m, 2e-5);
   }
   EXPECT_FALSE(is_orthonormal(Matrix3{{{{1, 0, 0}, {0, 2, 0}, {0, 0, 1}}}}));
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Place {
+struct Position {
   int row = 0;  ///< of all charts
   int x = 0;
 };
@@ -25,12 +25,12 @@ struct Place {
 /// The largest value so far, and where.
 struct Largest {
   double value = 0;
-  Place place;
+  Position position;
 
-  void take(double other, const Place& where) {
+  void take(double other, const Position& where) {
     if (other > value) {
       value = other;
-      place = where;
+      position = where;
     }
   }
 };
@@ -47,8 +47,8 @@ struct ChannelSums {
     squared_error += other.squared_error;
     absolute_error += other.absolute_error;
     maximum_a = std::max(maximum_a, other.maximum_a);
-    error.take(other.error.value, other.error.place);
-    relative.take(other.relative.value, other.relative.place);
+    error.take(other.error.value, other.error.position);
+    relative.take(other.relative.value, other.relative.position);
   }
 };
 
@@ -61,7 +61,7 @@ struct Sums {
 
   void add(const Sums& other) {
     for (std::size_t c = 0; c < channels.size(); ++c) channels[c].add(other.channels[c]);
-    relative.take(other.relative.value, other.relative.place);
+    relative.take(other.relative.value, other.relative.position);
     covered += other.covered;
     weight += other.weight;
     texels += other.texels;
@@ -161,7 +161,7 @@ class Comparer {
     return total;
   }
 
-  /// Calls body(place, weight, texel of a, texel of b) for every texel of a band that both maps show; its
+  /// Calls body(position, weight, texel of a, texel of b) for every texel of a band that both maps show; its
   /// solid angle is weight·scale, with one scale for all.
   template <class Body>
   void for_each_texel(int band, double& covered, const Body& body) const {
@@ -200,7 +200,7 @@ class Comparer {
         for (int i = 0; i < count; ++i, grid_texel += grid_channels, other_texel += other_channels) {
           const double weight = static_cast<double>(weights[static_cast<std::size_t>(start + i)]);
           if (!(weight > 0) || !(covers[i] > 0)) continue;
-          body(Place{row, start + i}, weight, grid_is_a_ ? grid_texel : other_texel,
+          body(Position{row, start + i}, weight, grid_is_a_ ? grid_texel : other_texel,
                grid_is_a_ ? other_texel : grid_texel);
         }
       }
@@ -226,7 +226,7 @@ class Comparer {
 
   void add_up_band(int band, Sums& sums) const {
     for_each_texel(band, sums.covered,
-                   [&](const Place& place, double weight, const float* a, const float* b) {
+                   [&](const Position& position, double weight, const float* a, const float* b) {
                      if (!all_finite(a, b)) {
                        ++sums.skipped;
                        return;
@@ -244,7 +244,7 @@ class Comparer {
                        channel.squared_error += weight * error * error;
                        channel.absolute_error += weight * std::fabs(error);
                        channel.maximum_a = std::max(channel.maximum_a, value_a);
-                       channel.error.take(std::fabs(error), place);
+                       channel.error.take(std::fabs(error), position);
                      }
                    });
   }
@@ -252,23 +252,24 @@ class Comparer {
   /// The second pass, when the floors are known. `out`, if given, gets relative error and 1 where texels are
   /// compared.
   void find_relative(int band, Sums& sums, Map* out) const {
-    for_each_texel(band, sums.covered, [&](const Place& place, double, const float* a, const float* b) {
+    for_each_texel(band, sums.covered, [&](const Position& position, double, const float* a, const float* b) {
       if (!all_finite(a, b)) return;
       double squared_error = 0, squared_a = 0;
       for (std::size_t c = 0; c < pairs_.size(); ++c) {
         const double value_a = static_cast<double>(a[pairs_[c].a]);
         const double error = static_cast<double>(b[pairs_[c].b]) - value_a;
         sums.channels[c].relative.take(ratio(std::fabs(error), std::max(std::fabs(value_a), floors_[c])),
-                                       place);
+                                       position);
         if (pairs_[c].counts) {
           squared_error += error * error / counting();
           squared_a += value_a * value_a / counting();
         }
       }
       const double relative = ratio(std::sqrt(squared_error), std::max(std::sqrt(squared_a), floor_of_all_));
-      sums.relative.take(relative, place);
+      sums.relative.take(relative, position);
       if (out != nullptr) {
-        float* texel = out->level.chart(place.row / grid_.height()).at(place.x, place.row % grid_.height());
+        float* texel =
+            out->level.chart(position.row / grid_.height()).at(position.x, position.row % grid_.height());
         texel[0] = static_cast<float>(std::min(relative, 1e6));
         texel[1] = 1;
       }
@@ -284,9 +285,9 @@ class Comparer {
       for (int x = 0; x < mean.width(); ++x) {
         const float* from = mean.level.chart(0).at(x, y);
         const double value = static_cast<double>(from[0] / from[1]);
-        const double decades = std::log10(std::max(value, kHeatLowest) / kHeatLowest);
+        const double decades = std::log10(std::max(value, kHeatMinimum) / kHeatMinimum);
         const auto color =
-            from[1] > 0.5f ? color_ramp(decades / std::log10(kHeatHighest / kHeatLowest)) : neutral_color();
+            from[1] > 0.5f ? color_ramp(decades / std::log10(kHeatMaximum / kHeatMinimum)) : neutral_color();
         std::copy(color.begin(), color.end(), heat.level.chart(0).at(x, y));
       }
     }
@@ -298,10 +299,10 @@ class Comparer {
         std::count_if(pairs_.begin(), pairs_.end(), [](const ChannelPair& pair) { return pair.counts; }));
   }
 
-  Vec3d direction_of(const Place& place) const {
+  Vec3d direction_of(const Position& position) const {
     return transpose(grid_.orientation) *
-           grid_.parameterization.to_sphere(place.row / grid_.height(), (place.x + 0.5) / grid_.width(),
-                                            (place.row % grid_.height() + 0.5) / grid_.height());
+           grid_.parameterization.to_sphere(position.row / grid_.height(), (position.x + 0.5) / grid_.width(),
+                                            (position.row % grid_.height() + 0.5) / grid_.height());
   }
 
   /// `weight` is the sum of weights, over all channels that `sums` is of.
@@ -317,9 +318,9 @@ class Comparer {
     result.relative_rmse = ratio(result.rmse, result.rms_a);
     result.mean_absolute = sums.absolute_error / weight;
     result.maximum_absolute = sums.error.value;
-    result.maximum_absolute_direction = direction_of(sums.error.place);
+    result.maximum_absolute_direction = direction_of(sums.error.position);
     result.maximum_relative = sums.relative.value;
-    result.maximum_relative_direction = direction_of(sums.relative.place);
+    result.maximum_relative_direction = direction_of(sums.relative.position);
     result.psnr = result.rmse > 0 ? 20 * std::log10(peak / result.rmse) : kInfinity;
     return result;
   }

@@ -67,15 +67,15 @@ struct Comparison {
 ///
 /// `heat`, if given, becomes a lat-long map (RGB, linear sRGB, no orientation) of the relative error: root
 /// mean square over the channels of b − a by that of a, with the floor of maximum_relative, averaged over
-/// each new texel. A colour scale over its logarithm, dark violet at kHeatLowest to light yellow at
-/// kHeatHighest; grey where nothing was compared.
+/// each new texel. A colour scale over its logarithm, dark violet at kHeatMinimum to light yellow at
+/// kHeatMaximum; grey where nothing was compared.
 ///
 /// Throws Error when the maps have no channels in common or options are out of range, and Cancelled.
 WELKIN_API Comparison compare(const Map& a, const Map& b, const CompareOptions& options = {},
                               Map* heat = nullptr);
 /// The relative error at the heat map's dark end.
-inline constexpr double kHeatLowest = 1e-5;
+inline constexpr double kHeatMinimum = 1e-5;
 /// The relative error at the heat map's light end.
-inline constexpr double kHeatHighest = 1;
+inline constexpr double kHeatMaximum = 1;
 
 }  // namespace welkin

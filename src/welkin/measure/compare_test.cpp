@@ -125,7 +125,7 @@ TEST(Compare, OneWorldInTwoShapesIsTheSame) {
   }
 }
 
-TEST(Compare, FindsTheDirectionOfTheWorstPlace) {
+TEST(Compare, FindsTheDirectionOfTheWorstTexel) {
   const Matrix3 turned = rotation_from_yaw_pitch_roll(-30, 60, 15);
   const Map a = smooth_map("octahedral", 64, 64);
   Map b = smooth_map("cube", 128, 128, turned);
@@ -208,8 +208,9 @@ TEST(Compare, TheHeatMapShowsRelativeErrorByItsScale) {
   ASSERT_EQ(heat.width(), 128);
   ASSERT_EQ(heat.height(), 64);
   const auto color_at = [&](const Vec3d& d) {
-    const auto place = heat.parameterization.from_sphere(d);
-    return heat.level.chart(0).at(static_cast<int>(place.u * 127.99), static_cast<int>(place.v * 63.99));
+    const auto position = heat.parameterization.from_sphere(d);
+    return heat.level.chart(0).at(static_cast<int>(position.u * 127.99),
+                                  static_cast<int>(position.v * 63.99));
   };
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_NEAR(color_at({1, 0.1, 0.1})[c], color_ramp(3.0 / 5)[c],

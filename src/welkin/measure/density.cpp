@@ -33,22 +33,22 @@ class LimitSearch {
       const bool has_rim = scan(chart);
       area += has_rim ? valid_area(chart) : 1;
     }
-    refine(lowest_);
-    refine(highest_);
-    return {lowest_.density, highest_.density, area};
+    refine(minimum_);
+    refine(maximum_);
+    return {minimum_.density, maximum_.density, area};
   }
 
  private:
   void take(int chart, double u, double v) {
     if (!p_.valid(chart, u, v)) return;
     const double density = p_.solid_angle_density(chart, u, v);
-    if (density < lowest_.density) lowest_ = {density, chart, u, v};
-    if (density > highest_.density) highest_ = {density, chart, u, v};
+    if (density < minimum_.density) minimum_ = {density, chart, u, v};
+    if (density > maximum_.density) maximum_ = {density, chart, u, v};
   }
 
-  /// The last valid place on the way from a valid place to one that isn't.
-  template <class Place>
-  static double rim(double inside, double outside, const Place& is_valid) {
+  /// The last valid position on the way from a valid position to one that isn't.
+  template <class IsValid>
+  static double rim(double inside, double outside, const IsValid& is_valid) {
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (inside + outside);
       (is_valid(middle) ? inside : outside) = middle;
@@ -57,8 +57,8 @@ class LimitSearch {
   }
 
   /// Calls body(rim) for every change between valid and not along the line t ∈ [0, 1].
-  template <class Place, class Body>
-  static void for_each_rim(const Place& is_valid, const Body& body) {
+  template <class IsValid, class Body>
+  static void for_each_rim(const IsValid& is_valid, const Body& body) {
     for (int i = 0; i < kSteps; ++i) {
       const double from = static_cast<double>(i) / kSteps, to = (i + 1.0) / kSteps;
       if (is_valid(from) != is_valid(to)) {
@@ -117,8 +117,8 @@ class LimitSearch {
   }
 
   const AnyParameterization& p_;
-  Extreme lowest_{std::numeric_limits<double>::infinity()};
-  Extreme highest_{-std::numeric_limits<double>::infinity()};
+  Extreme minimum_{std::numeric_limits<double>::infinity()};
+  Extreme maximum_{-std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace
@@ -128,10 +128,10 @@ DensityLimits density_limits(const AnyParameterization& parameterization) {
 }
 
 DensityReport density_of(const AnyParameterization& parameterization, int size) {
-  constexpr int kMostTexels = 16384;
-  if (size < 2 || size > kMostTexels) {
+  constexpr int kMaxTexels = 16384;
+  if (size < 2 || size > kMaxTexels) {
     throw Error(ErrorKind::bad_request, "the density of charts can be shown for 2 to " +
-                                            std::to_string(kMostTexels) + " texels across, not " +
+                                            std::to_string(kMaxTexels) + " texels across, not " +
                                             std::to_string(size));
   }
   DensityReport report;
@@ -140,22 +140,22 @@ DensityReport density_of(const AnyParameterization& parameterization, int size) 
 
   // At texel centres.
   std::vector<float> row(static_cast<std::size_t>(size));
-  double lowest = std::numeric_limits<double>::infinity(), highest = 0, texels = 0;
+  double minimum = std::numeric_limits<double>::infinity(), maximum = 0, texels = 0;
   for (int chart = 0; chart < parameterization.charts(); ++chart) {
     for (int y = 0; y < report.height; ++y) {
       texel_solid_angles(parameterization, size, report.height, chart, y, row.data());
       for (const float value : row) {
         if (!(value > 0)) continue;
-        lowest = std::min(lowest, static_cast<double>(value));
-        highest = std::max(highest, static_cast<double>(value));
+        minimum = std::min(minimum, static_cast<double>(value));
+        maximum = std::max(maximum, static_cast<double>(value));
         ++texels;
       }
     }
   }
   report.average = parameterization.coverage() / texels;
-  report.minimum = lowest / report.average;
-  report.maximum = highest / report.average;
-  report.ratio = highest / lowest;
+  report.minimum = minimum / report.average;
+  report.maximum = maximum / report.average;
+  report.ratio = maximum / minimum;
 
   // At infinite resolution.
   const DensityLimits limits = density_limits(parameterization);

@@ -21,7 +21,7 @@ constexpr std::size_t kBins = std::size_t{1} << (31 - kBinShift);
 std::size_t bin_of(float positive) {
   return std::bit_cast<std::uint32_t>(positive) >> kBinShift;
 }
-double lowest_of_bin(std::size_t bin) {
+double lower_edge_of_bin(std::size_t bin) {
   return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bin << kBinShift)));
 }
 
@@ -109,8 +109,8 @@ struct LuminanceSums {
     if (!(maximum > 0) || wanted < below) return 0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       if (histogram[bin] > 0 && below + histogram[bin] >= wanted) {
-        const double low = std::max(lowest_of_bin(bin), static_cast<double>(smallest_positive));
-        const double high = std::min(lowest_of_bin(bin + 1), static_cast<double>(maximum));
+        const double low = std::max(lower_edge_of_bin(bin), static_cast<double>(smallest_positive));
+        const double high = std::min(lower_edge_of_bin(bin + 1), static_cast<double>(maximum));
         return low + (high - low) * (wanted - below) / histogram[bin];
       }
       below += histogram[bin];
@@ -192,17 +192,17 @@ class Measurer {
       for (int c = 0; c < channels; ++c) {
         sums.channels[static_cast<std::size_t>(c)].take_row(texels + c, channels, weights.data(), width);
       }
-      float highest = -kInfinity;
+      float maximum = -kInfinity;
       for (int x = 0; x < width; ++x) {
         const float weight = weights[static_cast<std::size_t>(x)];
         if (!(weight > 0)) continue;
         const float value = luminance_(texels + static_cast<std::ptrdiff_t>(x) * channels);
         sums.luminance.take(value, weight, row, x);
-        highest = std::max(highest, value);
+        maximum = std::max(maximum, value);
         ++sums.texels;
         sums.weight += static_cast<double>(weight);
       }
-      row_maximum_[static_cast<std::size_t>(row)] = highest;
+      row_maximum_[static_cast<std::size_t>(row)] = maximum;
     }
   }
 

@@ -63,7 +63,7 @@ TEST(Statistics, AConstantMapHasItsValueEverywhere) {
   }
 }
 
-TEST(Statistics, OnlyPlacesOfTheMapAreCounted) {
+TEST(Statistics, OnlyValidTexelsAreCounted) {
   const Map map = constant_map("angular", 200, 200, {1, 1, 1});
   EXPECT_NEAR(static_cast<double>(measure(map).texels), kPi / 4 * 200 * 200, 100);
 }

@@ -17,7 +17,7 @@ constexpr int kGap = 2;          // between charts
 constexpr double kOctaves = 2;   // of the scale on either side of the average
 constexpr int kNarrowest = 200;  // pictures leave room for the scale
 
-double scale_place(double octave) {
+double scale_position(double octave) {
   return (octave + kOctaves) / (2 * kOctaves);
 }
 
@@ -44,9 +44,9 @@ class ChartPainter {
       return;
     }
     const double here = octave(chart, u, v);
-    const double place = scale_place(here);
-    blend(picture, left, y, color_ramp(place), 1);
-    blend(picture, left, y, place < 0.6 ? kWhite : kBlack, contour_cover(chart, u, v, here));
+    const double position = scale_position(here);
+    blend(picture, left, y, color_ramp(position), 1);
+    blend(picture, left, y, position < 0.6 ? kWhite : kBlack, contour_cover(chart, u, v, here));
   }
 
   /// How much of the texel centred on (u, v) the nearest contour line covers; none where lines would run
@@ -105,7 +105,7 @@ void draw_scale(Image& picture, int top, const ScaleSize& size) {
   }
   const int tick = std::max(1, size.text / 12);
   for (const Label& label : kLabels) {
-    const double x = left + width * scale_place(label.octave);
+    const double x = left + width * scale_position(label.octave);
     const double y = bar_top + size.bar + 1.9 * size.text;
     const int tick_left = static_cast<int>(std::lround(x - 0.5 * tick));
     fill_box(picture, {tick_left, bar_top + size.bar, tick, size.text / 2}, kBlack);

@@ -44,13 +44,13 @@ class Frame {
 
   double x(double degrees) const { return box_.x + box_.width * degrees / plot_.degrees; }
   double degrees(double x) const { return (x - box_.x) / box_.width * plot_.degrees; }
-  /// Of a share of the largest weight. Below the logarithmic axis' end it goes on to beneath the frame.
+  /// Of a share of the largest weight. Below the logarithmic axis' end it continues below the frame.
   double y(double share) const {
-    double place = share;
+    double position = share;
     if (plot_.axis == WeightAxis::logarithmic) {
-      place = share > 0 ? std::max(1 + std::log10(share) / kDecades, -0.1) : -0.1;
+      position = share > 0 ? std::max(1 + std::log10(share) / kDecades, -0.1) : -0.1;
     }
-    return box_.y + box_.height * (1 - place);
+    return box_.y + box_.height * (1 - position);
   }
 
  private:
@@ -113,7 +113,7 @@ void draw_curve(Image& picture, const AnyLobe& lobe, const Frame& frame, const R
   std::vector<double> weights;
   for (const double angle : angles) weights.push_back(lobe.weight(lobe::s_of_angle(angle / 180 * kPi)));
   const double largest = *std::max_element(weights.begin(), weights.end());
-  // The most that any stretch of the curve covers of a pixel counts, lest joints show.
+  // A pixel is covered by the maximum over the curve's segments, so that joints don't show.
   const Box& box = frame.box();
   const double half_width = frame.text() / 9.0;
   std::vector<float> cover(static_cast<std::size_t>(picture.width()) *
@@ -126,9 +126,9 @@ void draw_curve(Image& picture, const AnyLobe& lobe, const Frame& frame, const R
     for (int y = std::max(static_cast<int>(std::min(a.y, b.y) - half_width - 1), 0); y <= low; ++y) {
       for (int x = static_cast<int>(a.x - half_width - 1); x <= right; ++x) {
         const double here = half_width + 0.5 - distance({x + 0.5, y + 0.5}, a, b);
-        float& most = cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width()) +
-                            static_cast<std::size_t>(x)];
-        most = std::max(most, static_cast<float>(here));
+        float& maximum = cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width()) +
+                               static_cast<std::size_t>(x)];
+        maximum = std::max(maximum, static_cast<float>(here));
       }
     }
   }

@@ -76,9 +76,9 @@ int row_of(const PointGrid& grid, int pack, int lane) {
 /// How many points of a row make one candidate.
 int group_of(const PointGrid& grid, int pack, int lane) {
   const double theta = (row_of(grid, pack, lane) + 0.5) * kPi / grid.height;
-  const double most = 0.125 * grid.width / grid.height / std::sin(theta);
+  const double maximum = 0.125 * grid.width / grid.height / std::sin(theta);
   int count = 1;
-  while (2 * count <= most && grid.width % (2 * count) == 0) count *= 2;
+  while (2 * count <= maximum && grid.width % (2 * count) == 0) count *= 2;
   return count;
 }
 
@@ -105,7 +105,7 @@ void collect(const PointGrid& grid, int pack, float threshold, std::vector<Candi
   }
 }
 
-/// Takes these points out of the grid.
+/// Removes these points from the grid.
 void take(PointGrid& grid, std::span<const Candidate> candidates, BrightPoints& points) {
   // A box as wide as the column: Gauss's rule of three points.
   struct Part {
@@ -159,14 +159,14 @@ double roughness(const PointGrid& grid, const Monitor& monitor) {
         for (float each : sum) sums[static_cast<std::size_t>(i)] += static_cast<double>(each);
       },
       monitor);
-  double most = 0;
+  double maximum = 0;
   for (int c = 0; c < grid.channels; ++c) {
     double sum = 0;
     for (int pack = 0; pack < grid.packs; ++pack)
       sum += sums[static_cast<std::size_t>(pack * grid.channels + c)];
-    most = std::max(most, sum);
+    maximum = std::max(maximum, sum);
   }
-  return std::sqrt(most);
+  return std::sqrt(maximum);
 }
 
 }  // namespace
@@ -193,15 +193,15 @@ BrightPoints take_bright_points(PointGrid& grid, const BrightRule& rule, const M
       collect(grid, pack, threshold, all);
   }
   const std::size_t always = std::min(all.size(), static_cast<std::size_t>(rule.always));
-  const std::size_t most = std::min(all.size(), static_cast<std::size_t>(rule.maximum));
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(most), all.end());
+  const std::size_t maximum = std::min(all.size(), static_cast<std::size_t>(rule.maximum));
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(maximum), all.end());
   take(grid, std::span(all).first(always), points);
-  if (most > always) {
+  if (maximum > always) {
     double brightest = 0;
     for (const PackSizes& each : measure_all(grid, monitor)) brightest = std::max(brightest, each.brightest);
     if (brightest > rule.cell * dimmest ||
         roughness(grid, monitor) > rule.roughness * dimmest / grid.channels) {
-      take(grid, std::span(all).first(most).subspan(always), points);
+      take(grid, std::span(all).first(maximum).subspan(always), points);
     }
   }
   return points;

@@ -55,7 +55,7 @@ double total(const BrightPoints& points, int c) {
 }
 
 /// Nothing is lost but the rounding of floats.
-TEST(BrightPoints, TakenAndLeftAreAll) {
+TEST(BrightPoints, RemovedAndRemainingPointsAreAll) {
   for (const bool boxes : {false, true}) {
     for (const int lamps : {0, 1, 30, 200}) {
       PointGrid grid = noise(lamps);
@@ -70,15 +70,15 @@ TEST(BrightPoints, TakenAndLeftAreAll) {
   }
 }
 
-/// Lamps are taken where they lie, the largest first, and nothing else changes.
-TEST(BrightPoints, TheLargestAreTakenFromTheirPlaces) {
+/// Lamps are removed at their positions, the largest first, and nothing else changes.
+TEST(BrightPoints, TheLargestAreRemovedFromTheGrid) {
   for (const int always : {1, 7, 50}) {
     PointGrid grid = noise(100), before = noise(100);
     BrightRule rule;
     rule.always = rule.maximum = always;
     const BrightPoints points = take_bright_points(grid, rule, {});
     ASSERT_EQ(points.count(), always);
-    double least = 1e30, left = 0;
+    double minimum = 1e30, left = 0;
     for (int i = 0; i < points.count(); ++i) {
       const std::size_t k = static_cast<std::size_t>(i);
       const double theta = std::acos(static_cast<double>(points.y[k]));
@@ -95,17 +95,17 @@ TEST(BrightPoints, TheLargestAreTakenFromTheirPlaces) {
         size = std::max(
             size, std::fabs(static_cast<double>(points.weight[k * kChannels + static_cast<std::size_t>(c)])));
       }
-      least = std::min(least, size);
+      minimum = std::min(minimum, size);
     }
     for (std::size_t i = 0; i < grid.lanes.size(); ++i) {
       EXPECT_EQ(grid.lanes.data()[i], before.lanes.data()[i]);
       left = std::max(left, std::fabs(static_cast<double>(grid.lanes.data()[i])));
     }
-    EXPECT_GE(least, left);
+    EXPECT_GE(minimum, left);
   }
 }
 
-/// A box's three points have its centre, and its spread along the row: width²/12 (a Gauss rule is exact).
+/// A box's three points have its centre, and its variance along the row: width²/12 (a Gauss rule is exact).
 TEST(BrightPoints, BoxesHaveTheirWidth) {
   PointGrid grid = noise(0);
   grid.boxes = true;

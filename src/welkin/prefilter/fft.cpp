@@ -14,8 +14,8 @@ bool fft_takes(int length) {
   return length == 1;
 }
 
-int fft_length(int least) {
-  int length = (least + 3) / 4 * 4;
+int fft_length(int minimum) {
+  int length = (minimum + 3) / 4 * 4;
   while (!fft_takes(length)) length += 4;
   return length;
 }

@@ -19,7 +19,7 @@ struct FftPlan {
 /// Whether FftPlan takes this length.
 bool fft_takes(int length);
 
-/// The smallest length of at least `least` that FftPlan takes and that is a multiple of four.
-int fft_length(int least);
+/// The smallest length of at least `minimum` that FftPlan takes and that is a multiple of four.
+int fft_length(int minimum);
 
 }  // namespace welkin::prefilter

@@ -58,10 +58,11 @@ double bound(int length) {
 TEST(Fft, TakesProductsOfTwoThreeAndFive) {
   for (const int length : kLengths) EXPECT_TRUE(fft_takes(length)) << length;
   for (const int length : {-4, 0, 7, 11, 14, 22, 49, 1001}) EXPECT_FALSE(fft_takes(length)) << length;
-  for (int least = 1; least < 3000; ++least) {
-    const int length = fft_length(least);
-    EXPECT_TRUE(length >= least && length % 4 == 0 && fft_takes(length)) << least;
-    for (int smaller = (least + 3) / 4 * 4; smaller < length; smaller += 4) EXPECT_FALSE(fft_takes(smaller));
+  for (int minimum = 1; minimum < 3000; ++minimum) {
+    const int length = fft_length(minimum);
+    EXPECT_TRUE(length >= minimum && length % 4 == 0 && fft_takes(length)) << minimum;
+    for (int smaller = (minimum + 3) / 4 * 4; smaller < length; smaller += 4)
+      EXPECT_FALSE(fft_takes(smaller));
   }
 }
 
@@ -73,7 +74,7 @@ TEST(Fft, OrdersAreTheFourierSums) {
       const FftPlan plan(length);
       const Buffer rows = random_rows(length, 1);
       Buffer data = random_rows(length, 1), work(data.size());
-      // Beyond half the length the orders come again, and factors are taken as they are.
+      // Beyond half the length the orders repeat, and factors apply unchanged.
       const int degree = length + 3;
       std::vector<float> factors;
       for (int m = 0; m <= degree; ++m) factors.push_back(m % 3 == 1 ? 0.5f : 1.0f);
@@ -144,7 +145,7 @@ TEST(Fft, RowsAreTheFourierSeries) {
   }
 }
 
-/// There and back with all orders is `length` times the rows, twice: once by each of the halves.
+/// Forward and inverse with all orders give `length` times the rows, twice: once by each of the halves.
 TEST(Fft, BackIsTheInverse) {
   for (const Kernels* table : all_tables()) {
     for (const int length : kLengths) {

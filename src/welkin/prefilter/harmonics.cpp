@@ -265,8 +265,8 @@ std::vector<float> phases(int last, int grid_width, int points_width) {
   return phase_factors;
 }
 
-HarmonicAnalysis::HarmonicAnalysis(const PrefilterShape& source, int most)
-    : degree(most),
+HarmonicAnalysis::HarmonicAnalysis(const PrefilterShape& source, int maximum)
+    : degree(maximum),
       points(source.parameterization, source.size, degree),
       fft(points.width),
       latitudes(points.height, degree),

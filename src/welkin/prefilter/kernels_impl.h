@@ -14,7 +14,7 @@
 /// arguments, for the reason given in sphere/kernels_impl.h.
 namespace welkin::prefilter {
 
-/// A SampledLobe as lobe/kernels_impl.h wants lobes.
+/// A SampledLobe with the interface that lobe/kernels_impl.h needs.
 template <class Arch>
 struct Sampled {
   using Pack = xsimd::batch<float, Arch>;
@@ -147,7 +147,7 @@ struct KernelsOf {
     const float* f = Fft<Arch>::forward(plan, lanes, work);
     const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(packs) * 2 * parts * 8;
     for (int m = 0; m <= degree; ++m, orders += step) {
-      // Beyond the row's length orders come again.
+      // Beyond the row's length orders repeat.
       const int position = m % plan.length;
       const float* a = f + static_cast<std::ptrdiff_t>(position) * 16;
       const float* b = f + static_cast<std::ptrdiff_t>(position == 0 ? 0 : plan.length - position) * 16;

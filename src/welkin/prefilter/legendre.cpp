@@ -34,7 +34,7 @@ Latitudes::Latitudes(const std::vector<double>& cosines, int degree)
     log_sine[lane] = 0.5 * std::log(std::max(1e-300, (1 - x) * (1 + x)));
   }
   for (int pack = 0; pack < packs; ++pack) {
-    // Beyond its turning point m = l sin θ a function dies off within a few widths m^⅓ of Airy's.
+    // Beyond its turning point m = l sin θ a function decays within a few widths m^⅓ of Airy's.
     double widest = log_sine[static_cast<std::size_t>(pack) * 8];
     for (int i = 1; i < 8; ++i) widest = std::max(widest, log_sine[static_cast<std::size_t>(pack * 8 + i)]);
     const double turning = degree * std::exp(widest);

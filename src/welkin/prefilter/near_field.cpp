@@ -80,7 +80,7 @@ class Near {
   double beyond() const { return 2 * kPi * last_ * full(last_); }
   double operator()(double s) const {
     if (!(s < last_)) return 0;
-    // Its end is rounded off: sums over rows don't take to a step.
+    // Its end is rounded off: sums over rows converge slowly for a step.
     const double part = s / last_, square = part * part, rounded = 1 - square * square * square;
     return full(s) * rounded * rounded;
   }
@@ -132,15 +132,15 @@ std::vector<double> zonal_of(const Part& near, double width, int degree) {
   return lobe::legendre_sums(std::move(s), std::move(weight), degree);
 }
 
-/// The smallest exponent X with which neither cut matters; or the one with the best of cores, where the
-/// lobe's own core isn't of the form that makes the far part smooth.
+/// The smallest exponent X for which both truncation errors are negligible; or the one with the best of
+/// cores, where the lobe's own core isn't of the form that makes the far part smooth.
 Split split_of(const lobe::AnyLobe& lobe, double scale, const std::vector<double>& zonal, int degree,
                double tolerance) {
   const double width = lobe.width(), half = (1 - std::cos(width)) / (std::sqrt(2.0) - 1);
   // Degrees beyond the last come from the near part alone: relative to what the lobe has there.
   const double have = std::fabs(zonal[static_cast<std::size_t>(degree)]);
   Split best{14, half};
-  double least = 1e300;
+  double minimum = 1e300;
   for (double exponent = 3; exponent <= 8; exponent += 0.5) {
     for (double core : {1.0, 0.5, 0.0, -0.25, -0.5, -0.75, -1.0}) {
       const Split split{exponent, core * half};
@@ -148,11 +148,11 @@ Split split_of(const lobe::AnyLobe& lobe, double scale, const std::vector<double
       const double far =
           std::fabs(zonal[static_cast<std::size_t>(degree)] - zonal_of(near, width, degree).back());
       const double lost = std::max(far / have, near.beyond());
-      if (lost < least) {
-        least = lost;
+      if (lost < minimum) {
+        minimum = lost;
         best = split;
       }
-      if (least < 5 * tolerance) return best;
+      if (minimum < 5 * tolerance) return best;
       if (core == 1.0 && near.beyond() > 5 * tolerance) break;
     }
   }
@@ -165,7 +165,7 @@ Split split_of(const lobe::AnyLobe& lobe, double scale, const std::vector<double
 constexpr double kSharpening = 1.0 / 150;
 
 /// Lines at whole numbers of rows from the axis: transforms F(μ) = 1/2π ∫ near(s + y²/2) cos μy dy, and what
-/// bends of rows do to them, for μ = 0 … most.
+/// bends of rows do to them, for μ = 0 … max_order.
 ///
 /// Along a row at a mean sine σ of the two, y = 2σ sin φ/2: mφ = μy (1 + y²/24σ² …) with μ = m/σ, dφ = dy/σ
 /// (1 + y²/8σ² …). So K_m = (F + C/σ²)/σ with C = −F″/8 − μF‴/24.
@@ -175,7 +175,7 @@ class Lines {
   };
 
  public:
-  Lines(const SampledNear& near, double core, double step, int reach, int most) {
+  Lines(const SampledNear& near, double core, double step, int reach, int max_order) {
     const double end = std::acos(1 - near.last());
     std::vector<std::vector<double>> lines(static_cast<std::size_t>(reach) + 1);
     parallel_for(reach + 1, [&](int offset) {
@@ -185,9 +185,9 @@ class Lines {
       for (std::size_t i = 0; i < nodes.position.size(); ++i) {
         nodes.weight[i] *= near(beside + nodes.position[i] * nodes.position[i] / 2) / kPi;
       }
-      lines[static_cast<std::size_t>(offset)] = cosine_sums(nodes.position, nodes.weight, most);
+      lines[static_cast<std::size_t>(offset)] = cosine_sums(nodes.position, nodes.weight, max_order);
     });
-    const std::size_t count = static_cast<std::size_t>(most) + 1;
+    const std::size_t count = static_cast<std::size_t>(max_order) + 1;
     for (int offset = 0; offset <= reach; ++offset) {
       // (2 sin ω/2)⁶ across the rows.
       std::vector<double> line = lines[static_cast<std::size_t>(offset)];
@@ -202,7 +202,7 @@ class Lines {
         return line[std::min(static_cast<std::size_t>(std::abs(mu)), count - 1)];
       };
       std::vector<Point>& points = points_.emplace_back();
-      for (int mu = 0; mu <= most; ++mu) {
+      for (int mu = 0; mu <= max_order; ++mu) {
         const double second = at(mu + 1) - 2 * at(mu) + at(mu - 1);
         const double third = (at(mu + 2) - 2 * at(mu + 1) + 2 * at(mu - 1) - at(mu - 2)) / 2;
         points.push_back({at(mu), -second / 8 - mu * third / 24});
@@ -275,9 +275,9 @@ NearField::NearField(const lobe::AnyLobe& lobe, const std::vector<double>& zonal
 
   const double step = kPi / rows, end = std::acos(1 - near.last());
   reach = static_cast<int>(end / step);
-  const int most = static_cast<int>(std::min(zonal.size(), static_cast<std::size_t>(4 * rows))) + 16;
-  const Lines lines(near, core, step, reach, most);
-  last = std::clamp(lines.last(5 * tolerance), 8, most - 16);
+  const int max_order = static_cast<int>(std::min(zonal.size(), static_cast<std::size_t>(4 * rows))) + 16;
+  const Lines lines(near, core, step, reach, max_order);
+  last = std::clamp(lines.last(5 * tolerance), 8, max_order - 16);
 
   const auto sine = [&](int row) { return std::sin((row + 0.5) * step); };
   const int width = 2 * reach + 1;

@@ -19,6 +19,7 @@ void check(const PrefilterShape& source, const std::vector<PrefilterLevel>& leve
   const auto positive = [](ChartSize size) { return size.width > 0 && size.height > 0; };
   if (!positive(source.size) || source.channels < 1)
     throw Error(ErrorKind::bad_request, "prefilter: the source has no texels");
+  require(is_orthonormal(options.orientation), "the orientation of a map is a rotation or a reflection");
   for (const PrefilterLevel& level : levels) {
     if (!positive(level.size)) throw Error(ErrorKind::bad_request, "prefilter: a level has no texels");
   }

@@ -45,8 +45,8 @@ bool has_plain_rows(const AnyParameterization& source, ChartSize size) {
   return source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width);
 }
 
-/// So many rows tell well enough where a sun is for the dim directions on whose horizon it stands, however
-/// wide the lobe.
+/// So many rows locate a sun precisely enough for dark directions that have it on their horizon, however wide
+/// the lobe.
 constexpr int kSunRows = 450;
 
 /// How many columns of the picture can be one of the grid's, a power of two, so that `minimum` are left.
@@ -72,7 +72,7 @@ RowSpread::RowSpread(int columns, int picture_rows, int rows) {
   const QuadratureRule rule = gauss_legendre(4);
   std::vector<std::vector<Tap>> lists(static_cast<std::size_t>(rows));
   const auto add = [&](int to, int from, double weight) {
-    // Past a pole the grid goes on down the opposite meridian; equally, that meridian's picture comes over
+    // Past a pole the grid continues down the opposite meridian; equally, that meridian's picture comes over
     // the pole.
     const bool opposite = to < 0 || to >= rows;
     if (to < 0) to = -1 - to;
@@ -162,7 +162,7 @@ PointGridPlan::PointGridPlan(const AnyParameterization& source, ChartSize size, 
   const double texel = mean_texel(source, size);
   const int minimum = std::max(
       {16, static_cast<int>(1.42 * degree), std::min(kSunRows, static_cast<int>(0.9 * kPi / texel))});
-  // Columns far wider than what the lobes resolve are no boxes to be done along the row alone.
+  // Columns far wider than what the lobes resolve can't be treated as boxes along the row alone.
   if (!has_plain_rows(source, size) || (degree > size.width && size.height > size.width)) {
     width = fft_length(std::max(2 * minimum + minimum / 4, 64));
     height = width / 2;

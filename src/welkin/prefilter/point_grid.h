@@ -61,7 +61,7 @@ struct ColumnSpread {
   /// `columns` texels to a column: through the four columns about each position. 1: a texel as wide as the
   /// column goes to three, 1/24, 22/24 and 1/24.
   explicit ColumnSpread(int columns);
-  /// Texels stay what they are: boxes as wide as a column.
+  /// Texels are kept: boxes as wide as a column.
   static ColumnSpread boxes();
   int columns;
   int reach;                 ///< texels before a column's own first one

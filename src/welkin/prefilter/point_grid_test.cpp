@@ -69,7 +69,7 @@ void for_each_point(const PointGrid& points, int channel, const Body& body) {
 }
 
 /// Σ weights · f, f averaged over a point's column where points are boxes.
-double moment(const PointGrid& points, int channel, int parts, const Function& f) {
+double weighted_sum(const PointGrid& points, int channel, int parts, const Function& f) {
   double sum = 0;
   for_each_point(points, channel, [&](double theta, int x, double weight) {
     if (weight == 0) return;
@@ -123,7 +123,7 @@ std::vector<Shape> shapes() {
 
 /// Float sums: 2e-6. Where the density has a kink, as along the edges of an octahedron, this test's own
 /// quadrature misses more.
-TEST(PointGrid, MassesAddUpToTheMapsIntegral) {
+TEST(PointGrid, WeightsAddUpToTheMapsIntegral) {
   for (const Shape& shape : shapes()) {
     const Map map = noise(AnyParameterization::make(shape.parameterization), shape.width, shape.height);
     const bool kinks = shape.parameterization.find("octahedral") != std::string::npos;
@@ -133,7 +133,7 @@ TEST(PointGrid, MassesAddUpToTheMapsIntegral) {
       const PointGrid points = make_point_grid(map, plan, {});
       EXPECT_GE(points.height, degree + 2);
       for (int c = 0; c < 2; ++c) {
-        EXPECT_NEAR(moment(points, c, 1, one) / whole[c], 1,
+        EXPECT_NEAR(weighted_sum(points, c, 1, one) / whole[c], 1,
                     shape.width < 4 ? 3e-5
                     : kinks         ? 1e-4
                                     : 2e-6)
@@ -153,7 +153,7 @@ TEST(PointGrid, ChannelsAreIndependent) {
       const PointGrid together = make_point_grid(map, plan, {});
       for (int c = 0; c < channels; ++c) {
         Map single(map.parameterization, map.width(), map.height(), 1);
-        for_each_place(map, [&](int chart, int x, int y) {
+        for_each_valid_texel(map, [&](int chart, int x, int y) {
           *single.level.chart(chart).at(x, y) = map.level.chart(chart).at(x, y)[c];
         });
         const PointGrid alone = make_point_grid(single, plan, {});
@@ -188,16 +188,16 @@ TEST(PointGrid, DependOnNothingButTheMap) {
   }
 }
 
-/// A texel at a disc's rim counts by what of it lies within: a constant picture measures as much as the map
-/// covers.
+/// A texel at a disc's rim is weighted by the part of it within: a constant picture measures as much as the
+/// map covers.
 TEST(PointGrid, DiscsMeasureWhatTheyCover) {
   for (const char* name : {"angular", "fisheye-equidistant", "half-cube", "paraboloid", "hemi-octahedral"}) {
     Map map = make_map(name, 32);
     render(map, [](const Vec3d&) { return 1; });
     for (const int degree : {5, 90}) {
       const PointGridPlan plan(map.parameterization, {map.width(), map.height()}, degree);
-      EXPECT_NEAR(moment(make_point_grid(map, plan, {}), 0, 1, one) / map.parameterization.coverage(), 1,
-                  3e-5)
+      EXPECT_NEAR(weighted_sum(make_point_grid(map, plan, {}), 0, 1, one) / map.parameterization.coverage(),
+                  1, 3e-5)
           << name;
     }
   }
@@ -220,13 +220,13 @@ TEST(PointGrid, OneTexelLiesWhereItIs) {
       *map.level.chart(chart).at(each.x, each.y) = 1e30f;
       const PointGrid points = make_point_grid(map, PointGridPlan(p, {map.width(), map.height()}, 16), {});
       const double whole = 1e30 * texel_integral(map, chart, each.x, each.y, 4, one);
-      EXPECT_NEAR(moment(points, 0, 1, one) / whole, 1, 1e-5);
+      EXPECT_NEAR(weighted_sum(points, 0, 1, one) / whole, 1, 1e-5);
       // Polynomials of degree one: the centroid.
       for (const Function& f :
            {Function([](const Vec3d& d) { return d.x; }), Function([](const Vec3d& d) { return d.y; }),
             Function([](const Vec3d& d) { return d.z; })}) {
         const double centroid = 1e30 * texel_integral(map, chart, each.x, each.y, 4, f) / whole;
-        EXPECT_NEAR(moment(points, 0, 8, f) / whole, centroid, 1e-4)
+        EXPECT_NEAR(weighted_sum(points, 0, 8, f) / whole, centroid, 1e-4)
             << each.shape.parameterization << ' ' << chart;
       }
     }
@@ -246,7 +246,7 @@ TEST(PointGrid, AreCancelled) {
 /// A smooth lobe of the light that the degree resolves: e^(κ(cos θ − 1)), κ = degree²/18, whose coefficient
 /// there is about e^−9. Relative to its mean over all directions the polynomials' error is under 1e-4 where
 /// the grid is fine, else measured: up to 2e-3 along rows, 5e-3 texel by texel.
-TEST(PointGrid, SmoothFunctionsOfMassesAreThoseOfTexels) {
+TEST(PointGrid, SmoothFunctionsIntegrateAsOverTexels) {
   for (const Shape& shape : shapes()) {
     const Map map = noise(AnyParameterization::make(shape.parameterization), shape.width, shape.height);
     const double whole = integral(map, 1, 1, one);
@@ -262,7 +262,7 @@ TEST(PointGrid, SmoothFunctionsOfMassesAreThoseOfTexels) {
       const Vec3d axis = degree == 20 ? Vec3d{0, 1, 0} : normalize(Vec3d{-0.3, -0.8, 0.4});
       const Function lobe = [&](const Vec3d& d) { return std::exp(kappa * (dot(d, axis) - 1)); };
       const double mean = whole / (2 * kappa);
-      EXPECT_NEAR(moment(points, 1, 2 * parts, lobe) / mean, integral(map, 1, parts, lobe) / mean,
+      EXPECT_NEAR(weighted_sum(points, 1, 2 * parts, lobe) / mean, integral(map, 1, parts, lobe) / mean,
                   degree == 4 ? fine : coarse)
           << shape.parameterization << ' ' << shape.width << ' ' << degree;
     }

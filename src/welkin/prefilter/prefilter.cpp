@@ -45,6 +45,7 @@ Map PrefilterPlan::Tables::result(std::size_t level, const Map& map) const {
 }
 
 std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) const {
+  source.check();
   const Tables& t = *tables_;
   if (!(source.parameterization == t.source.parameterization) || source.width() != t.source.size.width ||
       source.height() != t.source.size.height || source.channels() != t.source.channels) {

@@ -30,7 +30,7 @@ inline Map landscape(const std::string& spec, int width, int height, int channel
   Map map(AnyParameterization::make(spec).at_size(width, height), width, height, channels);
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> value;
-  cases::for_each_place(map, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(map, [&](int chart, int x, int y) {
     const Vec3d d = cases::direction_at(map, chart, x, y);
     const float lamp = value(random) < 0.004f ? 100.0f : 1.0f;
     const float base =
@@ -44,7 +44,7 @@ inline Map landscape(const std::string& spec, int width, int height, int channel
 
 inline Map filled(const std::string& spec, int width, int height, float value, int channels = 1) {
   Map map(AnyParameterization::make(spec).at_size(width, height), width, height, channels);
-  cases::for_each_place(map, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(map, [&](int chart, int x, int y) {
     for (int c = 0; c < channels; ++c) map.level.chart(chart).at(x, y)[c] = value;
   });
   fill_borders(map);
@@ -87,7 +87,7 @@ inline Errors errors_of(const Map& level, const PrefilterReference& reference, c
   std::vector<Vec3d> directions;
   std::vector<const float*> texels;
   int index = 0;
-  cases::for_each_place(level, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(level, [&](int chart, int x, int y) {
     if (index++ % step != 0) return;
     directions.push_back(cases::direction_at(level, chart, x, y));
     texels.push_back(level.level.chart(chart).at(x, y));
@@ -115,7 +115,7 @@ inline Errors errors_of(const Map& level, const PrefilterReference& reference, c
 /// body(value) for every channel of every valid texel.
 template <class Body>
 void for_each_value(const Map& map, const Body& body) {
-  cases::for_each_place(map, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(map, [&](int chart, int x, int y) {
     for (int c = 0; c < map.channels(); ++c) body(static_cast<double>(map.level.chart(chart).at(x, y)[c]));
   });
 }

@@ -66,7 +66,7 @@ TEST(PrefilterInput, RefusesValuesThatCannotBeSummed) {
   }
 }
 
-/// The corners of a disc are no places of the map; what a file has there doesn't matter.
+/// The corners of a disc are not valid; what a file has there is ignored.
 TEST(PrefilterInput, TheUnusedCornersOfADiscMayHoldAnything) {
   const Map clean = landscape("fisheye-equidistant", 24, 24);
   Map dirty = landscape("fisheye-equidistant", 24, 24);
@@ -134,7 +134,7 @@ TEST(PrefilterPlan, GivesTheSameNumbersFromManyThreads) {
   }
 }
 
-/// Work is asked after every piece: whenever the answer is yes, it ends, and soon.
+/// Cancelling is checked after every piece of work: whenever it is requested, work ends soon.
 TEST(PrefilterPlan, StopsWheneverItIsAsked) {
   const Map source = landscape("cube", 12, 12, 1);
   const PrefilterPlan plan = plan_for(source);
@@ -158,7 +158,7 @@ TEST(PrefilterPlan, StopsWheneverItIsAsked) {
   }
 }
 
-/// What is aimed for is reached, by the measure that the options name.
+/// Tolerances are reached, by the measure that the options name.
 TEST(PrefilterPlan, TolerancesAreReached) {
   const Map source = landscape("latlong", 64, 32);
   const PrefilterReference reference(source);

@@ -176,21 +176,21 @@ TEST(PrefilterLaws, PositiveMapsStayPositiveAndBlackOnesBlack) {
 
 /// The largest difference of two levels, over the largest value.
 double difference(const Map& a, const Map& b, double factor = 1) {
-  double most = 0, worst = 0;
-  cases::for_each_place(a, [&](int chart, int x, int y) {
+  double maximum = 0, worst = 0;
+  cases::for_each_valid_texel(a, [&](int chart, int x, int y) {
     for (int c = 0; c < a.channels(); ++c) {
       const double p = static_cast<double>(a.level.chart(chart).at(x, y)[c]);
       const double q = factor * static_cast<double>(b.level.chart(chart).at(x, y)[c]);
-      most = std::max(most, std::fabs(p));
+      maximum = std::max(maximum, std::fabs(p));
       worst = std::fabs(p - q) <= worst ? worst : std::fabs(p - q);
     }
   });
-  return worst / most;
+  return worst / maximum;
 }
 
 template <class Body>
 void change(Map& map, const Body& body) {
-  cases::for_each_place(map, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(map, [&](int chart, int x, int y) {
     for (int c = 0; c < map.channels(); ++c) {
       float& value = map.level.chart(chart).at(x, y)[c];
       value = body(value);
@@ -199,7 +199,7 @@ void change(Map& map, const Body& body) {
   fill_borders(map);
 }
 
-/// Signs pass through: rounding. A mirror's kernel is held to the range of positive light (filter/fetch.h).
+/// Signs pass through: rounding. A mirror's kernel is clamped for positive light (filter/fetch.h).
 TEST(PrefilterLaws, NegativeRadianceIsConvolvedToo) {
   for (const Shape& shape : {Shape{"latlong", 64, 32}, {"cube", 16, 16}}) {
     Map source = landscape(shape.parameterization, shape.width, shape.height);
@@ -254,7 +254,7 @@ TEST(PrefilterLaws, SumsOfMapsAreSumsOfLevels) {
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     if (levels_of({8, 8})[i].lobe.is_mirror()) continue;
     double squares = 0, errors = 0;
-    cases::for_each_place(of_a[i], [&](int chart, int x, int y) {
+    cases::for_each_valid_texel(of_a[i], [&](int chart, int x, int y) {
       const auto at = [&](const Map& map) { return static_cast<double>(*map.level.chart(chart).at(x, y)); };
       squares += at(of_sum[i]) * at(of_sum[i]);
       errors += std::pow(at(of_sum[i]) - at(of_a[i]) - at(of_b[i]), 2);
@@ -264,7 +264,7 @@ TEST(PrefilterLaws, SumsOfMapsAreSumsOfLevels) {
 }
 
 /// The same picture in another program's world: the levels in that world are the same too, and those in ours
-/// are turned.
+/// are rotated.
 TEST(PrefilterLaws, OrientationsOfSourceAndResultCancel) {
   const Map plain = landscape("cube", 12, 12);
   const std::vector<Map> expected = run(plain, "cube", {8, 8});

@@ -66,7 +66,7 @@ TEST(Prefilter, WideColumnsAreNoPoints) {
   compare({"latlong", 10, 128, 1}, kTargets[3], 3, 5);
 }
 
-/// What of a texel lies within the rim counts.
+/// Texels at a rim are weighted by the part within it.
 TEST(Prefilter, DiscsAreSummedUpToTheirRims) {
   std::size_t which = 0;
   for (const Source& s :
@@ -74,8 +74,8 @@ TEST(Prefilter, DiscsAreSummedUpToTheirRims) {
     compare(s, kTargets[which++], 0, 7);
 }
 
-/// A sun ten million times as bright as the rest, for directions on whose horizon it stands: what is left of
-/// it is small, and the rest is dark.
+/// A sun ten million times as bright as the rest, for directions that have it on their horizon: there its
+/// contribution is small, and the rest is dark.
 TEST(Prefilter, SunsMayStandOnTheHorizon) {
   Map source = filled("latlong", 1024, 512, 0.01f);
   for (const int y : {227, 228}) {
@@ -86,7 +86,7 @@ TEST(Prefilter, SunsMayStandOnTheHorizon) {
   const Map level = prefiltered(source, "latlong", {64, 32}, "lambert");
   std::vector<Vec3d> directions;
   std::vector<double> values;
-  cases::for_each_place(level, [&](int chart, int x, int y) {
+  cases::for_each_valid_texel(level, [&](int chart, int x, int y) {
     const Vec3d d = cases::direction_at(level, chart, x, y);
     if (std::fabs(dot(d, sun)) > 0.02) return;
     directions.push_back(d);

@@ -19,7 +19,7 @@ constexpr double kSmallKink = 4e-4;
 
 }  // namespace
 
-/// A lobe does less and less away from where it is largest: its axis, or a ring about it.
+/// A lobe varies less and less away from where it is largest: its axis, or a ring about it.
 struct PrefilterReference::Scale {
   explicit Scale(const lobe::AnyLobe& lobe) : core(lobe.width()) {
     constexpr int kSteps = 2000;
@@ -34,7 +34,7 @@ struct PrefilterReference::Scale {
     for (const double s : lobe.breakpoints()) kink = kink || s == 1;
   }
 
-  /// Whether a piece of that squared size at s = 1 − cos θ is to be cut up.
+  /// Whether a piece of that squared size at s = 1 − cos θ is to be subdivided.
   bool coarse(double size, double s) const {
     double away = 2 * s;
     if (peak > 0) {

@@ -12,9 +12,9 @@ namespace welkin {
 
 /// Pre-filtering by brute force in float64: for any direction, the sum over all the source's texels of
 /// radiance times the integral of the lobe over the texel. The definition itself, as far as quadrature goes:
-/// four points to a texel, as many as it takes where a rim or a kink goes through it (texel_points.h), and
-/// texels near the direction cut up until a piece is a tenth as wide as what the lobe does there.
-/// Relative error 1e-6 of the sum.
+/// four points to a texel, more where a rim or a kink goes through it (texel_points.h), and texels near the
+/// direction subdivided until a piece is a tenth as wide as the lobe's local scale. Relative error 1e-6 of
+/// the sum.
 class PrefilterReference {
  public:
   /// Keeps a copy of what it needs of the source: 144 + 4 · channels bytes for each texel, and about 10 kB
@@ -33,7 +33,7 @@ class PrefilterReference {
   struct Scale;
   class Weights;
 
-  /// Texels that four points do for: summed in blocks.
+  /// Texels for which four points suffice: summed in blocks.
   struct Plain {
     std::vector<double> x, y, z, solid_angle;  ///< four points a texel
     std::vector<double> size;                  ///< of the texel, squared, radians²

@@ -22,7 +22,7 @@ std::optional<Parameter> roughness_parameter(const lobe::AnyLobe& lobe) {
 std::vector<PrefilterLevel> roughness_levels(const lobe::AnyLobe& lobe, const lobe::RoughnessCurve& curve,
                                              ChartSize finest, int count) {
   const std::optional<Parameter> parameter = roughness_parameter(lobe);
-  const double minimum = parameter ? parameter->lowest : 0;
+  const double minimum = parameter ? parameter->minimum : 0;
   std::vector<PrefilterLevel> levels;
   for (int level = 0; level < count; ++level) {
     double roughness = curve.roughness(level, count);

@@ -62,8 +62,8 @@ class SpreadSums {
     }
   }
 
-  /// Brings what lies past the edges to where it belongs: left and right go around, and past a pole the rows
-  /// go on down the opposite meridian.
+  /// Adds what lies past the edges to the points it wraps to: left and right go around, and past a pole the
+  /// rows continue down the opposite meridian.
   void fold() {
     const int half = width_ / 2;
     for (int y = -kMargin; y < height_ + kMargin; ++y) {
@@ -119,7 +119,7 @@ struct Points {
 };
 
 /// How many cells a texel is cut into so that none is wider than a step of the grid. 0 × 0: it is so small
-/// that one point will do.
+/// that one point suffices.
 struct Cells {
   int across = 0, down = 0;
   friend bool operator==(const Cells&, const Cells&) = default;
@@ -152,9 +152,9 @@ class TexelSpreader {
     std::stable_sort(texels.begin(), irregular_ones,
                      [](const Texel& a, const Texel& b) { return a.cells < b.cells; });
     for (auto from = texels.begin(); from != irregular_ones;) {
-      const auto most = from + std::min<std::ptrdiff_t>(Points::kMax, irregular_ones - from);
+      const auto limit = from + std::min<std::ptrdiff_t>(Points::kMax, irregular_ones - from);
       const auto to =
-          std::find_if(from, most, [&](const Texel& each) { return !(each.cells == from->cells); });
+          std::find_if(from, limit, [&](const Texel& each) { return !(each.cells == from->cells); });
       add_plain(chart, y, {from, to}, sums);
       from = to;
     }

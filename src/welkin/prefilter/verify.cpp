@@ -84,7 +84,7 @@ Distance distance(const float* values, const double* wanted, const std::vector<s
 }
 
 ReferenceErrors errors_of(const Map& level, const Compared& compared, const std::vector<double>& wanted,
-                          double least) {
+                          double minimum) {
   const std::vector<std::size_t> channels = measured_channels(level);
   ReferenceErrors errors;
   errors.random_texels = static_cast<int>(compared.random);
@@ -99,7 +99,7 @@ ReferenceErrors errors_of(const Map& level, const Compared& compared, const std:
       error_squares += omega * d.error * d.error;
       squares += omega * d.wanted * d.wanted;
     }
-    const double relative = ratio(d.error, std::max(d.wanted, least));
+    const double relative = ratio(d.error, std::max(d.wanted, minimum));
     if (exceeds(relative, errors.maximum)) {
       errors.maximum = relative;
       errors.maximum_direction = compared.directions[i];
@@ -167,7 +167,7 @@ double furnace_of_part(const Map& level, const Compared& compared, const std::ve
   return largest;
 }
 
-/// Holds one level after another to references; tells the monitor how much of all is done.
+/// Compares one level after another with references; reports progress to the monitor.
 class Verifier {
  public:
   Verifier(const Map& source, std::span<const Map> maps, std::span<const PrefilterLevel> levels,
@@ -272,6 +272,11 @@ std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<con
                                                 std::span<const PrefilterLevel> levels,
                                                 const VerifyOptions& options) {
   require(maps.size() == levels.size(), "verifying takes one map for each level");
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    require(maps[i].width() == levels[i].size.width && maps[i].height() == levels[i].size.height &&
+                maps[i].channels() == source.channels(),
+            "a map to verify has another size or number of channels than its level");
+  }
   check_verifiable(shape_of(source));
   std::vector<LevelVerification> results(maps.size());
   if (maps.empty()) return results;

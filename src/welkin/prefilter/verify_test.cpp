@@ -95,7 +95,7 @@ TEST(Verify, AFactorIsFoundAsItsExcess) {
   EXPECT_NEAR(errors.maximum, 0.03125, 1e-6);
 }
 
-/// One wrong texel out of 6·16² where it matters, too bright or too dark: chance would miss it.
+/// One wrong texel out of 6·16² near the light, too bright or too dark: random texels would miss it.
 TEST(Verify, AWrongTexelInTheLightIsFound) {
   const Map source = sun("latlong", 64, 32);
   Map level = exact_level(source, kLobe, "cube", 16);
@@ -122,7 +122,7 @@ TEST(Verify, AWrongTexelInTheLightIsFound) {
   }
 }
 
-TEST(Verify, ANumberThatIsNoneIsNoSmallError) {
+TEST(Verify, NanIsNotASmallError) {
   const Map source = sun("latlong", 32, 16);
   Map level = exact_level(source, kLobe, "cube", 1);
   level.level.chart(3).at(0, 0)[1] = std::numeric_limits<float>::quiet_NaN();
@@ -227,19 +227,19 @@ TEST(Verify, ProgressRisesToOne) {
 
 // ---- which texels
 
-TEST(VerifyTexels, ChancePicksPlacesOnceAndAllOfFew) {
+TEST(VerifyTexels, RandomTexelsAreDrawnOnceAndAllOfFew) {
   for (const char* name : {"cube", "latlong", "angular", "healpix"}) {
     for (const int size : {1, 2, 5, 40}) {
       const Map level(AnyParameterization::make(name), size, size, 1);
-      int places = 0;
+      int positions = 0;
       for (const prefilter::Texel& t : prefilter::random_texels(level, 1 << 20, 1)) {
-        places += level.parameterization.valid(t.chart, (t.x + 0.5) / size, (t.y + 0.5) / size) ? 1 : 0;
+        positions += level.parameterization.valid(t.chart, (t.x + 0.5) / size, (t.y + 0.5) / size) ? 1 : 0;
       }
       for (const int count : {1, 64, 1000}) {
         const auto texels = prefilter::random_texels(level, count, 7);
         const std::set<prefilter::Texel> set(texels.begin(), texels.end());
         EXPECT_EQ(set.size(), texels.size()) << name << size;
-        EXPECT_EQ(static_cast<int>(texels.size()), std::min(count, places)) << name << size;
+        EXPECT_EQ(static_cast<int>(texels.size()), std::min(count, positions)) << name << size;
         EXPECT_EQ(texels, prefilter::random_texels(level, count, 7));
       }
     }
@@ -255,15 +255,15 @@ TEST(VerifyTexels, TheHotAreAllAboveTheirShareAndSpread) {
   options.most_hot = 16;
   const auto texels = prefilter::hot_texels(level, {}, options);
   ASSERT_EQ(texels.size(), 16u);
-  float least = 1e9f, most = 0;
+  float minimum = 1e9f, maximum = 0;
   for (const prefilter::Texel& t : texels) {
     const float value = *level.level.chart(t.chart).at(t.x, t.y);
-    least = std::min(least, value);
-    most = std::max(most, value);
+    minimum = std::min(minimum, value);
+    maximum = std::max(maximum, value);
   }
-  EXPECT_EQ(most, 1024);
-  EXPECT_GE(least, 512);
-  EXPECT_LT(least, 560);
+  EXPECT_EQ(maximum, 1024);
+  EXPECT_GE(minimum, 512);
+  EXPECT_LT(minimum, 560);
   options.most_hot = 10000;
   EXPECT_EQ(prefilter::hot_texels(level, {}, options).size(), 513u);
   // A light besides.
@@ -305,7 +305,7 @@ TEST(VerifyEnergy, FejersRuleIsExactForPolynomials) {
   }
 }
 
-/// The grid integrates the lobe about any axis of the world, and so any sum of them. verify_energy.h promises
+/// The grid integrates the lobe about any axis of the world, and so any sum of them. verify_energy.h states
 /// 2e-5.
 TEST(VerifyEnergy, TheGridResolvesEveryLobeItTakes) {
   const std::vector<Vec3d> axes{{0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0.3, 0.8, -0.5}, {0.001, -1, 0}};
@@ -334,8 +334,8 @@ TEST(VerifyEnergy, TheGridResolvesEveryLobeItTakes) {
   EXPECT_GT(taken, 10);
 }
 
-/// Narrow lobes at the source's own texels, by the reference: texels of 7°, for which verify_energy.h
-/// promises 5e-4.
+/// Narrow lobes at the source's own texels, by the reference: texels of 7°, for which verify_energy.h states
+/// 5e-4.
 TEST(VerifyEnergy, TheSourcesTexelsAddUpForNarrowLobes) {
   for (const char* spec : {"ggx,roughness=0.125"}) {
     const AnyLobe lobe = AnyLobe::make(spec);

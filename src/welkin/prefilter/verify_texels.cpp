@@ -25,7 +25,7 @@ double centre(int i, int count) {
   return (i + 0.5) / count;
 }
 
-bool is_place(const Map& map, const Texel& t) {
+bool is_valid_texel(const Map& map, const Texel& t) {
   return map.parameterization.valid(t.chart, centre(t.x, map.width()), centre(t.y, map.height()));
 }
 
@@ -47,10 +47,10 @@ Vec3d direction_of(const Map& map, const Texel& t) {
 std::vector<Texel> random_texels(const Map& level, int count, std::uint64_t seed) {
   const std::int64_t all = texels_of(level);
   std::vector<Texel> texels;
-  // Where most of the texels may be wanted, they are told one by one.
+  // Where most of the texels may be drawn, each is tested.
   if (all <= std::int64_t{4} * count) {
     for (std::int64_t i = 0; i < all; ++i) {
-      if (is_place(level, texel_at(level, i))) texels.push_back(texel_at(level, i));
+      if (is_valid_texel(level, texel_at(level, i))) texels.push_back(texel_at(level, i));
     }
     if (texels.size() <= static_cast<std::size_t>(count)) return texels;
     texels.clear();
@@ -60,7 +60,7 @@ std::vector<Texel> random_texels(const Map& level, int count, std::uint64_t seed
   while (texels.size() < static_cast<std::size_t>(count)) {
     const auto index = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(all));
     const Texel texel = texel_at(level, index);
-    if (is_place(level, texel) && drawn.insert(texel).second) texels.push_back(texel);
+    if (is_valid_texel(level, texel) && drawn.insert(texel).second) texels.push_back(texel);
   }
   return texels;
 }
@@ -69,21 +69,21 @@ std::vector<Texel> hot_texels(const Map& level, const std::vector<Vec3d>& lights
                               const VerifyOptions& options) {
   const TexelLuminance luminance(level.channel_names);
   const std::int64_t all = texels_of(level);
-  float highest = 0;
+  float maximum = 0;
   for (std::int64_t i = 0; i < all; ++i) {
-    highest = std::max(highest, luminance(values_of(level, texel_at(level, i))));
+    maximum = std::max(maximum, luminance(values_of(level, texel_at(level, i))));
   }
-  if (!(highest > 0)) return {};
+  if (!(maximum > 0)) return {};
   struct Hot {
     float luminance;
     std::int64_t index;
   };
   std::vector<Hot> hot;
-  const auto least = static_cast<float>(options.hot) * highest;
+  const auto minimum = static_cast<float>(options.hot) * maximum;
   for (std::int64_t i = 0; i < all; ++i) {
     const Texel texel = texel_at(level, i);
     const float value = luminance(values_of(level, texel));
-    if (value >= least && is_place(level, texel)) hot.push_back({value, i});
+    if (value >= minimum && is_valid_texel(level, texel)) hot.push_back({value, i});
   }
   std::stable_sort(hot.begin(), hot.end(),
                    [](const Hot& a, const Hot& b) { return a.luminance > b.luminance; });
@@ -97,7 +97,7 @@ std::vector<Texel> hot_texels(const Map& level, const std::vector<Vec3d>& lights
     const Texel texel{static_cast<int>(position.chart),
                       std::clamp(static_cast<int>(position.u * level.width()), 0, level.width() - 1),
                       std::clamp(static_cast<int>(position.v * level.height()), 0, level.height() - 1)};
-    if (is_place(level, texel)) texels.insert(texel);
+    if (is_valid_texel(level, texel)) texels.insert(texel);
   }
   return {texels.begin(), texels.end()};
 }

@@ -60,11 +60,11 @@ int degree_of(const std::vector<double>& zonal, double tolerance) {
 
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   const int finest = std::clamp(static_cast<int>(kPi / texel), 1, kMaxDegree / 4);
-  const int most = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMaxDegree);
-  int known = std::min(most, 4 * finest + 192);
+  const int max_degree = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMaxDegree);
+  int known = std::min(max_degree, 4 * finest + 192);
   std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
-  // A lobe with a step or a kink falls off slowly: as many degrees as show it to matter no more, or as many
-  // as are worth it.
+  // A lobe with a step or a kink falls off slowly: degrees up to where it is negligible, or up to a limit of
+  // cost.
   while (known < 768 && degree_of(zonal, tolerance) > known * 9 / 10) {
     known *= 2;
     zonal = lobe::zonal_coefficients(lobe, known);
@@ -87,16 +87,16 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   zonal.resize(static_cast<std::size_t>(degree) + 1);
   // The lobe's values, from its axis outward, dense where it is steep. Far out, where the series would be all
   // rounding errors, by the Gaussian's first moment: w + σ²/2 ∇²w.
-  std::vector<double> angles, near_places, degrees, values;
+  std::vector<double> angles, near_nodes, degrees, values;
   constexpr int kPoints = 1500;
   const double sigma = std::sqrt(square), core = std::max(sigma, lobe.width()), scale = 1 / lobe.integral();
   const auto weight = [&](double angle) { return scale * lobe.weight(lobe::s_of_angle(angle)); };
   for (int i = 0; i <= kPoints; ++i) {
     const double part = static_cast<double>(i) / kPoints;
     angles.push_back(std::min(kPi, core * std::sinh(part * std::asinh(kPi / core))));
-    if (angles.back() < 12 * core) near_places.push_back(lobe::s_of_angle(angles.back()));
+    if (angles.back() < 12 * core) near_nodes.push_back(lobe::s_of_angle(angles.back()));
   }
-  const std::vector<double> near_values = series(zonal, near_places);
+  const std::vector<double> near_values = series(zonal, near_nodes);
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const double angle = angles[i];
     double value = 0;

@@ -6,17 +6,17 @@
 
 /// Lobes that are narrower than texels.
 ///
-/// Between a source's texels and between a level's there is nothing to be known, and a lobe much narrower
+/// Neither a source nor a level has detail finer than its texels, and a lobe much narrower
 /// than both would show the texels' edges, or alias. So such a lobe is blurred by a Gaussian just wide
 /// enough: at the degree π/h of the texel size h, its coefficient becomes e^−5⁄4, as a Gaussian of σ = h/2
-/// alone has it. Wider lobes stay as they are.
+/// alone has it. Wider lobes are unchanged.
 namespace welkin::prefilter {
 
 struct WidenedLobe {
   lobe::AnyLobe lobe;         ///< a table when it was widened
   std::vector<double> zonal;  ///< its coefficients, as far as they matter
   int degree() const { return static_cast<int>(zonal.size()) - 1; }
-  double sigma = 0;     ///< of the Gaussian, radians; 0 when the lobe is as it was
+  double sigma = 0;     ///< of the Gaussian, radians; 0 when the lobe is unchanged
   bool smooth = false;  ///< what is left out is negligible even beside the brightest light
 };
 
@@ -25,7 +25,7 @@ struct WidenedLobe {
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance);
 
 /// Degrees that are cheap: up to here coefficients are kept that matter twenty times less, since a cut at the
-/// horizon falls off slowly and bright lights tell in dim directions.
+/// horizon falls off slowly and bright lights show in dark directions.
 inline constexpr int kCheapDegree = 160;
 
 /// The least degree for which what is left out of the lobe is, in the mean square over the sphere, a

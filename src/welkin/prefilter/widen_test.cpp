@@ -65,7 +65,7 @@ TEST(Widen, TheTableHasTheCoefficients) {
   }
 }
 
-/// A lobe that is nothing beside the texel becomes the Gaussian of σ = texel/2: e^(−θ²/2σ²) as far as angles
+/// A lobe much narrower than the texel becomes the Gaussian of σ = texel/2: e^(−θ²/2σ²) as far as angles
 /// are small, here 0.01.
 TEST(Widen, NeedlesBecomeGaussians) {
   constexpr double kTexel = 0.02;

@@ -33,7 +33,7 @@ using AllParameterizations =
              FisheyeEquisolid, FisheyeOrthographic, FisheyeStereographic, HalfCube, HemiOctahedral,
              SkyLatLong, Cylinder, Mercator, Healpix, OpenExrLatLong, OpenExrCube>;
 
-/// Calls visit(name, value, lowest, highest, description) for each parameter of `p`, if it has any. `value`
+/// Calls visit(name, value, minimum, maximum, description) for each parameter of `p`, if it has any. `value`
 /// is a double&, const when `p` is; a value that the visitor changes takes effect.
 template <class P, class Visitor>
 void visit_parameters(P& p, Visitor&& visit) {

@@ -6,8 +6,8 @@ namespace welkin::sphere {
 
 /// The whole sphere in a disc whose radius is proportional to the angle from the centre (azimuthal
 /// equidistant). Centre +Z, right −X, up +Y, seen from inside; the whole rim is −Z, the singular point. Past
-/// the rim the radius goes on counting the angle. Debevec's light probes have −Z at the centre: their frame
-/// is this one turned by 180° about Y.
+/// the rim the radius still measures the angle. Debevec's light probes have −Z at the centre: their frame is
+/// this one rotated by 180° about Y.
 struct AngularMap : WholeWorld {
   static constexpr const char* kName = "angular";
   static constexpr int kCharts = 1;

@@ -13,7 +13,7 @@ namespace welkin::cases {
 
 using sphere::AnyParameterization;
 
-struct Place {
+struct Position {
   double u, v;
 };
 
@@ -21,8 +21,9 @@ struct Place {
 struct Program {
   std::string name;
   std::function<Vec3d(const Vec3d&)> from_native;  ///< native direction → its world
-  std::function<Place(const Vec3d&)> latlong;  ///< its world's direction → place in its lat-long, v down
-  std::function<Vec3d(const Vec3d&)> cube;     ///< its world's direction → what it gives to a cube look-up
+  std::function<Position(const Vec3d&)>
+      latlong;                              ///< its world's direction → position in its lat-long, v down
+  std::function<Vec3d(const Vec3d&)> cube;  ///< its world's direction → what it gives to a cube look-up
   int lookup_determinant;
 };
 
@@ -46,41 +47,41 @@ inline Vec3d blender_from_native(const Vec3d& d) {
 }
 
 /// ½ + atan2(right, ahead)/2π, acos(up)/π.
-inline Place around(double right, double ahead, double up) {
+inline Position around(double right, double ahead, double up) {
   return {0.5 + std::atan2(right, ahead) / (2 * kPi), std::acos(up) / kPi};
 }
-inline Place openexr(const Vec3d& d) {
+inline Position openexr(const Vec3d& d) {
   return {0.5 - std::atan2(d.x, d.z) / (2 * kPi), std::acos(d.y) / kPi};
 }
-inline Place from_left_edge(const Vec3d& d) {
+inline Position from_left_edge(const Vec3d& d) {
   return {wrap(std::atan2(d.x, -d.z) / (2 * kPi)), std::acos(d.y) / kPi};
 }
 /// cmgen makes a cube with s.x to the right of s.z, then mirrors it in x.
-inline Place filament(const Vec3d& d) {
+inline Position filament(const Vec3d& d) {
   return around(-d.x, d.z, d.y);
 }
 /// Textures are read with v up.
-inline Place three(const Vec3d& d) {
+inline Position three(const Vec3d& d) {
   return {std::atan2(d.z, d.x) / (2 * kPi) + 0.5, 1 - (std::asin(d.y) / kPi + 0.5)};
 }
-inline Place blender(const Vec3d& d) {
+inline Position blender(const Vec3d& d) {
   const double v_up = (std::acos(d.z) - kPi) / -kPi;
   return {(std::atan2(d.y, d.x) - kPi) / (-2 * kPi), 1 - v_up};
 }
-inline Place unity(const Vec3d& d) {
+inline Position unity(const Vec3d& d) {
   const double v_up = 1 - std::acos(d.y) / kPi;
   return {0.5 - std::atan2(d.z, d.x) / (2 * kPi), 1 - v_up};
 }
-inline Place unreal(const Vec3d& d) {
+inline Position unreal(const Vec3d& d) {
   return around(d.x, -d.y, d.z);
 }
-inline Place pbrt(const Vec3d& d) {
+inline Position pbrt(const Vec3d& d) {
   return {wrap(std::atan2(d.y, d.x) / (2 * kPi)), std::acos(d.z) / kPi};
 }
-inline Place debevec(const Vec3d& d) {
+inline Position debevec(const Vec3d& d) {
   return {(1 + std::atan2(d.x, -d.z) / kPi) / 2, std::acos(d.y) / kPi};
 }
-inline Place left_handed(const Vec3d& d) {
+inline Position left_handed(const Vec3d& d) {
   return around(d.x, d.z, d.y);
 }
 
@@ -128,8 +129,8 @@ inline Matrix3 turned(int quarter_turns) {
   return rotation_from_yaw_pitch_roll(90.0 * quarter_turns, 0, 0);
 }
 
-/// Difference of two places, across the left and right edges too.
-inline double distance(double u, double v, const Place& p) {
+/// Difference of two positions, across the left and right edges too.
+inline double distance(double u, double v, const Position& p) {
   return std::hypot(std::remainder(u - p.u, 1.0), v - p.v);
 }
 

@@ -96,7 +96,7 @@ TEST(Convention, PbrtsEqualAreaOctahedronIsOurs) {
       u = 1 - v;
       v = 1 - across;
     }
-    const Place expected{(std::copysign(u, w.x) + 1) / 2, (std::copysign(v, w.y) + 1) / 2};
+    const Position expected{(std::copysign(u, w.x) + 1) / 2, (std::copysign(v, w.y) + 1) / 2};
     const auto p = octahedron.from_sphere(orientation * d);
     EXPECT_NEAR(p.u, expected.u, 1e-9);
     EXPECT_NEAR(p.v, expected.v, 1e-9);

@@ -6,8 +6,8 @@
 namespace welkin::sphere {
 
 /// A panorama on a cylinder around +Y: u = ½ − atan2(x, z)/2π as LatLong, v linear in the tangent of the
-/// latitude, which is ±tan(fov/2) at the top and bottom edges. Past them the cylinder goes on. Call update()
-/// after changing `fov` (vertical, degrees, < 180).
+/// latitude, which is ±tan(fov/2) at the top and bottom edges. Past them the cylinder continues. Call
+/// update() after changing `fov` (vertical, degrees, < 180).
 struct Cylinder {
   static constexpr const char* kName = "cylinder";
   static constexpr int kCharts = 1;

@@ -5,8 +5,8 @@
 
 namespace welkin::sphere {
 
-/// A place relative to the disc inscribed in a chart: right and up are ±1 at the chart's edges, radius 1 at
-/// the rim.
+/// A position relative to the disc inscribed in a chart: right and up are ±1 at the chart's edges, radius 1
+/// at the rim.
 template <class T>
 struct DiscPoint {
   T right, up, radius;
@@ -33,7 +33,7 @@ struct Ray {
   T cosine;            ///< cos θ
 };
 
-/// An angle a whose sine is x for x ∈ [0, 1], and that goes on round the circle past it: sin a is the
+/// An angle a whose sine is x for x ∈ [0, 1], and that continues around the circle past it: sin a is the
 /// triangle wave x, 2 − x, x − 4 … and cos a = ±√(1 − sin² a), so both are continuous. `ratio` is sin a / x,
 /// finite at x = 0.
 template <class T>

@@ -7,7 +7,7 @@ namespace welkin::sphere {
 /// The equi-angular cube (Google 2017): the cube with a face's plane coordinate s = tan(π/4 · (2u − 1)), so
 /// that u is linear in the angle. Faces as Cube. Density varies by √2, between the
 /// centre of a face and the middle of its edges.
-/// Past an edge u goes on counting the angle, and stops just short of 90° from the face's centre.
+/// Past an edge u still measures the angle, and stops just short of 90° from the face's centre.
 struct EquiAngularCube : WholeWorld {
   static constexpr const char* kName = "eac";
   static constexpr int kCharts = 6;

@@ -5,10 +5,10 @@
 namespace welkin::sphere {
 
 /// Continues a chart past its edges where no formula of its own does: the direction at (u, v) is the one at
-/// the place mirrored at the edge, reflected through the edge's own direction e: out = 2 (in · e) e − in, so
-/// the great circle from `in` through e goes on as far beyond. Continuous for (u, v) ∈ [−1, 2]², with the
-/// first derivatives across an edge's own continued; inside the chart it is the chart itself. `inside(u, v)`
-/// gives unit directions on [0, 1]².
+/// the position mirrored at the edge, reflected through the edge's own direction e: out = 2 (in · e) e − in,
+/// so the great circle from `in` through e continues as far beyond. Continuous for (u, v) ∈ [−1, 2]², with
+/// the first derivatives across an edge's own continued; inside the chart it is the chart itself. `inside(u,
+/// v)` gives unit directions on [0, 1]².
 template <class T, class Inside>
 Vec3<T> reflect_past_edge(T u, T v, const Inside& inside) {
   const T zero = constant<T>(0), one = constant<T>(1), two = constant<T>(2);

@@ -7,7 +7,7 @@ namespace welkin::sphere {
 
 /// Longitude × sine of latitude (Lambert's cylindrical equal-area projection): u = ½ − atan2(x, z)/2π, v = (1
 /// − y)/2. Axes as LatLong. Every texel measures the same solid angle; aspect π makes the texels at the
-/// equator square. Past a pole the picture goes on down the opposite meridian.
+/// equator square. Past a pole the picture continues down the opposite meridian.
 struct EqualArea : WholeWorld {
   static constexpr const char* kName = "equal-area";
   static constexpr int kCharts = 1;

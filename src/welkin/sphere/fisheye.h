@@ -48,7 +48,7 @@ struct FisheyeEquisolid : Fisheye<FisheyeEquisolid> {
   }
 };
 
-/// r proportional to sin θ: the picture that a ball's hemisphere gives of itself. At 180° the rim is
+/// r proportional to sin θ: the orthographic projection of the hemisphere. At 180° the rim is
 /// singular: its density is infinite, and given as at most 10⁴ times the centre's, and a rounding error e of
 /// (u, v) turns the direction by √e.
 struct FisheyeOrthographic : Fisheye<FisheyeOrthographic> {
@@ -63,7 +63,7 @@ struct FisheyeOrthographic : Fisheye<FisheyeOrthographic> {
     const Arc<T> arc = arc_of_sine(s * radius);
     return {s * arc.ratio, arc.cosine};
   }
-  /// Directions behind the camera lie past the rim, where `ray` goes on: 2 − sin θ.
+  /// Directions behind the camera lie past the rim, where `ray` continues: 2 − sin θ.
   template <class T>
   T radius(const Polar<T>& polar) const {
     const auto behind = polar.cosine < constant<T>(0);

@@ -6,7 +6,7 @@ namespace welkin::sphere {
 
 /// A fish-eye picture: a disc inscribed in the square, radius r a function of the angle θ from the centre
 /// alone, with θ = fov/2 at the rim. Centre +Z, right −X, up +Y, seen from inside. Past the rim the function
-/// goes on. `Lens` is the struct that inherits this and says how r and θ are related:
+/// continues. `Lens` is the struct that inherits this and says how r and θ are related:
 ///
 ///     static double scale_of(double half_fov);            // the lens's one constant, from fov/2 in radians
 ///     template <class T> Ray<T> ray(T radius) const;      // θ of r

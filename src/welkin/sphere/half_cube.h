@@ -7,8 +7,8 @@ namespace welkin::sphere {
 /// The upper half of a cube unfolded to one square, as a hemicube is: the middle half × half is the face +Y,
 /// and the four flaps around it are the upper halves of the sides, their horizon on the square's edges. The
 /// corners are not valid. Centre +Y, right −X, down +Z: seen from inside (looking up), as the top of a cross
-/// whose centre is +Z. Past a flap's sides its plane goes on for half a corner; past the square's edges the
-/// sides go on below the horizon.
+/// whose centre is +Z. Past a flap's sides its plane continues for half a corner; past the square's edges the
+/// sides continue below the horizon.
 struct HalfCube {
   static constexpr const char* kName = "half-cube";
   static constexpr int kCharts = 1;
@@ -54,7 +54,7 @@ struct HalfCube {
 
  private:
   /// The point of the cube with half side 1, not normalised. In a corner of the square the two flaps' planes
-  /// go on until they meet on its diagonal, each as far past the cube's edge as it can and be back there.
+  /// continue until they meet on its diagonal, each as far past the cube's edge as it can and be back there.
   template <class T>
   static Vec3<T> point(T u, T v) {
     const T zero = constant<T>(0), one = constant<T>(1), two = constant<T>(2), four = constant<T>(4);

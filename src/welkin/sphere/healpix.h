@@ -12,7 +12,7 @@ namespace welkin::sphere {
 ///
 /// With X the paper's coordinate from the south corner to the east one and Y to the west one, u = Y and v = 1
 /// − X: north is the top right corner, west the bottom right, south the bottom left, east the top left; seen
-/// from inside. Past an edge the chart goes on by reflect_past_edge.
+/// from inside. Past an edge the chart continues by reflect_past_edge.
 struct Healpix : WholeWorld {
   static constexpr const char* kName = "healpix";
   static constexpr int kCharts = 12;

@@ -6,7 +6,7 @@ namespace welkin::sphere {
 
 /// The upper half of the octahedron, turned by 45° to fill a square: with p' = p/(|x| + |y| + |z|),
 /// u = (1 + p'z − p'x)/2, v = (1 + p'z + p'x)/2. Centre +Y; corners −Z top left, −X top right, +X bottom
-/// left, +Z bottom right; seen from inside (looking up). Past an edge the square goes on, exactly, over the
+/// left, +Z bottom right; seen from inside (looking up). Past an edge the square continues, exactly, over the
 /// lower half of the world.
 struct HemiOctahedral {
   static constexpr const char* kName = "hemi-octahedral";

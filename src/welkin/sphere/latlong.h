@@ -6,7 +6,7 @@
 namespace welkin::sphere {
 
 /// Longitude × latitude: u = ½ − atan2(x, z)/2π, v = acos(y)/π. +Z at the centre, +X a quarter to its left,
-/// +Y on top (OpenEXR's axes). Past a pole the picture goes on down the opposite meridian.
+/// +Y on top (OpenEXR's axes). Past a pole the picture continues down the opposite meridian.
 struct LatLong : WholeWorld {
   static constexpr const char* kName = "latlong";
   static constexpr int kCharts = 1;

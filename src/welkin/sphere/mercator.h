@@ -6,8 +6,8 @@
 namespace welkin::sphere {
 
 /// Mercator's projection around +Y: u = ½ − atan2(x, z)/2π as LatLong, v linear in the ordinate m =
-/// asinh(tan(latitude)), which is ±asinh(tan(fov/2)) at the top and bottom edges. Angles are kept. Past the
-/// edges it goes on toward the poles. The default fov is that of web maps, whose ordinate of π makes them
+/// asinh(tan(latitude)), which is ±asinh(tan(fov/2)) at the top and bottom edges. It is conformal. Past the
+/// edges it continues toward the poles. The default fov is that of web maps, whose ordinate of π makes them
 /// square. Call update() after changing `fov` (vertical, degrees, < 180).
 struct Mercator {
   static constexpr const char* kName = "mercator";

@@ -10,7 +10,7 @@ namespace welkin::sphere {
 /// infinity gives SphereMap), cropped to the ball's outline: the radius in the picture is the tangent of the
 /// angle ψ from the camera's axis over that of the outline, 1/√(distance² − 1). Centre +Z, right +X, up +Y,
 /// mirrored as SphereMap. The ball hides a cone around −Z, of half angle blind_angle() = asin(1/distance): it
-/// is not covered. Past the rim the mirror image of the far side of the ball goes on, through the cone.
+/// is not covered. Past the rim the mirror image of the far side of the ball continues, through the cone.
 ///
 /// With i the angle between the ray and the ball's normal, and the triangle of camera, centre and the point
 /// that the ray meets: sin i = distance · sin ψ, and the reflected ray makes θ = 2i − ψ with +Z. With q =

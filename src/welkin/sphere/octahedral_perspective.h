@@ -8,13 +8,13 @@ namespace welkin::sphere {
 /// inside: chart = 1 where x < 0, + 2 where y < 0, + 4 where z < 0, looking along (±1, ±1, ±1). The side's
 /// equilateral triangle just fits the chart of aspect 2/√3: ±Y is the apex, on top for y ≥ 0 and at the
 /// bottom for y < 0, and ±X and ±Z are the ends of the base. Only the triangle is valid; the picture's plane
-/// goes on outside.
+/// continues outside.
 ///
 /// The planar projection p' = p/(|x| + |y| + |z|) is this perspective one followed by an affine map: in an
 /// octant |x| + |y|
 /// + |z| = √3 n·p, with n the side's unit normal, so p' = p/(√3 n·p) is the central projection of p on the
 /// side's plane, and each unfolding of the octahedron maps that plane by an affine map. So on every side
-/// Octahedral, OctahedralRect and this one sample alike: their densities are proportional.
+/// Octahedral, OctahedralRect and this one have proportional densities.
 struct OctahedralPerspective : WholeWorld {
   static constexpr const char* kName = "octahedral-perspective";
   static constexpr int kCharts = 8;

@@ -9,7 +9,7 @@ namespace welkin::sphere {
 /// [−1, 1]. Chart 0 is the upper half (the left square), chart 1 the lower; the first coordinate runs right,
 /// the second down. Corners of chart 0: −X top left, −Z top right, +Z bottom left, +X bottom right; of chart
 /// 1 the same with left and right exchanged. A look-up rule, so seen from inside both are mirrored, as the
-/// cube's faces are. Past an edge a square goes on, exactly, over the other half of the world.
+/// cube's faces are. Past an edge a square continues, exactly, over the other half of the world.
 struct OctahedralRect : WholeWorld {
   static constexpr const char* kName = "octahedral-rect";
   static constexpr int kCharts = 2;

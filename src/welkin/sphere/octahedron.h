@@ -26,7 +26,7 @@ T mirror_at_one(T s) {
 }
 
 /// The square unfolding, both coordinates in [−1, 1], is continued past its edges by folding it back: the
-/// point beyond an edge is the point mirrored at the edge with the other coordinate turned round. Exact for
+/// point beyond an edge is the point mirrored at the edge with the other coordinate negated. Exact for
 /// |s|, |t| ≤ 3.
 template <class T>
 struct SquarePoint {
@@ -41,8 +41,8 @@ SquarePoint<T> fold_square(T s, T t) {
 }
 
 /// The height y of the point (a, b) of a half octahedron turned by 45° to fill a square, x = (a ± b)/2: 1 −
-/// max(|a|, |b|). Past an edge the square goes on, mirrored, over the other half; `a` and `b` are changed to
-/// the mirrored point.
+/// max(|a|, |b|). Past an edge the square continues, mirrored, over the other half; `a` and `b` are changed
+/// to the mirrored point.
 template <class T>
 T fold_half(T& a, T& b) {
   const T one = constant<T>(1);

@@ -37,8 +37,8 @@ struct EdgeCentred {
   }
   template <class T>
   ChartPoint<T> from_sphere(const Vec3<T>& d) const {
-    const ChartPoint<T> place = inner.from_sphere(d);
-    return {place.chart, outward(place.u, width), outward(place.v, height)};
+    const ChartPoint<T> position = inner.from_sphere(d);
+    return {position.chart, outward(position.u, width), outward(position.v, height)};
   }
   template <class T>
   T solid_angle_density(int chart, T u, T v) const {

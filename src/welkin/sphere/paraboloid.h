@@ -6,11 +6,11 @@ namespace welkin::sphere {
 
 /// Dual paraboloids f(x, y) = ½ − ½(x² + y²) (Heidrich & Seidel 1999, eq. 1), one disc for each half of the
 /// world. Chart 0 is the front, centre +Z, right −X, up +Y; chart 1 the back, centre −Z, right +X, up +Y:
-/// both seen from inside, which is the look-up (x, y) = d.xy / (1 + |d.z|) with x turned round on the front.
+/// both seen from inside, which is the look-up (x, y) = d.xy / (1 + |d.z|) with x negated on the front.
 ///
 /// The discs alone are valid: they share the world without overlap. Outside a disc, in the chart's corners
-/// and its margin, the paraboloid goes on over the other half, so both pictures can be filled to their edges
-/// for filtering and blending. Density varies by 4 between the centre and the rim (eq. 3).
+/// and its margin, the paraboloid continues over the other half, so both pictures can be filled to their
+/// edges for filtering and blending. Density varies by 4 between the centre and the rim (eq. 3).
 struct DualParaboloid : WholeWorld {
   static constexpr const char* kName = "paraboloid";
   static constexpr int kCharts = 2;

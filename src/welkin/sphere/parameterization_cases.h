@@ -42,7 +42,7 @@ struct CaseName {
   }
 };
 
-struct Place {
+struct Position {
   int chart;
   double u, v;
 };
@@ -84,34 +84,34 @@ inline std::vector<Vec3d> all_directions() {
   return directions;
 }
 
-/// Random places of every chart in [low, high]².
+/// Random positions of every chart in [low, high]².
 template <class P>
-std::vector<Place> random_places(int count, double low, double high) {
+std::vector<Position> random_positions(int count, double low, double high) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> along(low, high);
-  std::vector<Place> places;
+  std::vector<Position> positions;
   for (int i = 0; i < count; ++i) {
     const double u = along(random), v = along(random);
-    places.push_back({i % P::kCharts, u, v});
+    positions.push_back({i % P::kCharts, u, v});
   }
-  return places;
+  return positions;
 }
 
 /// A lattice over every chart that stays off all the lines of symmetry where a chart may have a crease.
 template <class P>
-std::vector<Place> lattice_places(int size) {
-  std::vector<Place> places;
+std::vector<Position> lattice_positions(int size) {
+  std::vector<Position> positions;
   for (int chart = 0; chart < P::kCharts; ++chart) {
     for (int i = 0; i < size; ++i) {
-      for (int j = 0; j < size; ++j) places.push_back({chart, (i + 0.37) / size, (j + 0.61) / size});
+      for (int j = 0; j < size; ++j) positions.push_back({chart, (i + 0.37) / size, (j + 0.61) / size});
     }
   }
-  return places;
+  return positions;
 }
 
-/// Whether the place and those `margin` around it are valid.
+/// Whether the position and those `margin` around it are valid.
 template <class P>
-bool well_inside(const P& p, const Place& at, double margin) {
+bool well_inside(const P& p, const Position& at, double margin) {
   for (const double du : {-margin, margin}) {
     for (const double dv : {-margin, margin}) {
       const double u = at.u + du, v = at.v + dv;
@@ -125,18 +125,18 @@ inline double distance(const Vec3d& a, const Vec3d& b) {
   return length(a - b);
 }
 
-/// How far the direction at a place moves when u and v are off by up to `error`: what a rounding error of
+/// How far the direction at a position moves when u and v are off by up to `error`: what a rounding error of
 /// that size in (u, v) excuses, at singular points too.
 template <class P>
 double wobble(const P& p, int chart, double u, double v, double error) {
   const Vec3d d = p.to_sphere(chart, u, v);
-  double most = 0;
+  double maximum = 0;
   for (const double du : {-error, 0.0, error}) {
     for (const double dv : {-error, 0.0, error}) {
-      most = std::max(most, distance(d, p.to_sphere(chart, u + du, v + dv)));
+      maximum = std::max(maximum, distance(d, p.to_sphere(chart, u + du, v + dv)));
     }
   }
-  return most;
+  return maximum;
 }
 
 /// The partial derivatives of the direction by u and v, by central differences.
@@ -145,7 +145,7 @@ struct Tangents {
 };
 
 template <class P>
-Tangents tangents(const P& p, const Place& at, double step) {
+Tangents tangents(const P& p, const Position& at, double step) {
   const double scale = 0.5 / step;
   return {scale * (p.to_sphere(at.chart, at.u + step, at.v) - p.to_sphere(at.chart, at.u - step, at.v)),
           scale * (p.to_sphere(at.chart, at.u, at.v + step) - p.to_sphere(at.chart, at.u, at.v - step))};

@@ -56,8 +56,8 @@ TYPED_TEST(ParameterizationEdgeTest, GoesOnContinuouslyOverTheWholeMargin) {
 
 TYPED_TEST(ParameterizationEdgeTest, CoveredDirectionsOfTheMarginAreFoundOnAChart) {
   const TypeParam p;
-  for (const Place& place : random_places<TypeParam>(20000, -1, 2)) {
-    const Vec3d d = p.to_sphere(place.chart, place.u, place.v);
+  for (const Position& position : random_positions<TypeParam>(20000, -1, 2)) {
+    const Vec3d d = p.to_sphere(position.chart, position.u, position.v);
     if (!p.covers(d)) continue;
     const ChartPoint<double> at = p.from_sphere(d);
     const int chart = static_cast<int>(at.chart);
@@ -92,7 +92,7 @@ TYPED_TEST(ParameterizationEdgeTest, AStepOverAnEdgeIsASmallStepOnTheSphere) {
   }
 }
 
-TEST(OctahedralEdges, PlacesPastAnEdgeAreOtherPlacesOfTheMap) {
+TEST(OctahedralEdges, PositionsPastAnEdgeAreOtherPositionsOfTheMap) {
   const auto check = [](const auto& p) {
     for (int i = 1; i < 64; ++i) {
       const double past = i / 64.0;

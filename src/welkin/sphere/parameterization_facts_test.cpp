@@ -15,7 +15,7 @@ struct Row {
   double u, v;
 };
 
-/// Both ways: the direction is found at the place, and the place shows the direction.
+/// Both ways: the direction is found at the position, and the position shows the direction.
 template <class P>
 void expect_rows(const P& p, const std::vector<Row>& rows) {
   for (const Row& row : rows) {
@@ -176,7 +176,7 @@ TEST(SphereMap, IsTheLookUpByHalfVector) {
 }
 
 TEST(MirrorBall, FromInfinityIsTheSphereMap) {
-  for (const Place& at : random_places<MirrorBall>(2000, -1, 2)) {
+  for (const Position& at : random_positions<MirrorBall>(2000, -1, 2)) {
     ASSERT_LE(distance(MirrorBall{}.to_sphere(0, at.u, at.v), SphereMap{}.to_sphere(0, at.u, at.v)), 1e-12);
   }
   EXPECT_EQ(MirrorBall{}.blind_angle(), 0);
@@ -187,7 +187,7 @@ TEST(MirrorBall, IsWhatACameraSeesInABall) {
   for (const double far : {1.01, 1.2, 2.0, 5.0, 100.0}) {
     const MirrorBall p(far);
     const double widest = 1 / std::sqrt(far * far - 1);
-    for (const Place& at : random_places<MirrorBall>(2000, 0, 1)) {
+    for (const Position& at : random_positions<MirrorBall>(2000, 0, 1)) {
       if (!p.valid(0, at.u, at.v)) continue;
       const Vec3d camera{0, 0, far};
       const Vec3d ray = normalize(Vec3d{widest * (2 * at.u - 1), widest * (1 - 2 * at.v), -1});
@@ -226,7 +226,7 @@ TEST(Aspect, MakesTexelsSquareWhereStated) {
   EXPECT_EQ(LatLong{}.aspect(), 2);
   EXPECT_NEAR(Mercator{}.aspect(), 1, 1e-12);
   // Along the equator of a panorama, and in the middle of the other charts: |d_u| / |d_v| is the aspect.
-  const auto check = [](const auto& p, const Place& at) {
+  const auto check = [](const auto& p, const Position& at) {
     const Tangents t = tangents(p, at, 1e-5);
     EXPECT_NEAR(length(t.along_u) / length(t.along_v), p.aspect(), 1e-6) << p.kName;
   };

@@ -14,7 +14,7 @@ using Pack = xsimd::batch<float>;
 
 constexpr double kDirectionError = 3e-7;  ///< of to_sphere
 constexpr double kInputRounding = 6e-8;   ///< 2u − 1 and the like, in float
-constexpr double kPlaceError = 3e-7;      ///< of from_sphere, in u and v
+constexpr double kPositionError = 3e-7;   ///< of from_sphere, in u and v
 
 template <class P>
 class ParameterizationPrecisionTest : public ::testing::Test {};
@@ -28,27 +28,27 @@ Vec3d widened(const Vec3<float>& d) {
 }
 
 template <class P>
-void expect_direction(const P& p, const Place& at, const Vec3<float>& d) {
+void expect_direction(const P& p, const Position& at, const Vec3<float>& d) {
   const double allowed = kDirectionError + wobble(p, at.chart, at.u, at.v, kInputRounding);
   ASSERT_LE(distance(widened(d), p.to_sphere(at.chart, at.u, at.v)), allowed)
       << at.chart << " " << at.u << " " << at.v;
 }
 
 template <class P>
-void expect_place(const P& p, const Vec3<float>& d, const ChartPoint<float>& at) {
+void expect_position(const P& p, const Vec3<float>& d, const ChartPoint<float>& at) {
   ASSERT_TRUE(std::isfinite(at.u) && std::isfinite(at.v)) << d.x << " " << d.y << " " << d.z;
   const int chart = static_cast<int>(at.chart);
   ASSERT_TRUE(static_cast<float>(chart) == at.chart && chart >= 0 && chart < P::kCharts) << at.chart;
   const Vec3d exact = widened(d);
   if (!p.covers(exact)) return;
   const double u = at.u, v = at.v;
-  const double allowed = kDirectionError + wobble(p, chart, u, v, kPlaceError);
+  const double allowed = kDirectionError + wobble(p, chart, u, v, kPositionError);
   ASSERT_LE(distance(p.to_sphere(chart, u, v), normalize(exact)), allowed)
       << d.x << " " << d.y << " " << d.z << " lands on " << at.chart << " " << at.u << " " << at.v;
 }
 
 template <class P>
-void expect_density(const P& p, const Place& at, float density) {
+void expect_density(const P& p, const Position& at, float density) {
   const double exact = p.solid_angle_density(at.chart, at.u, at.v);
   // 5e-6: near a rim, one rounding over the square of the cosine. Where density falls to 0, a share of the
   // average.
@@ -56,43 +56,43 @@ void expect_density(const P& p, const Place& at, float density) {
   ASSERT_NEAR(density, exact, 5e-6 * exact + 4e-7 * average) << at.chart << " " << at.u << " " << at.v;
 }
 
-/// Random places, their coordinates rounded to float.
+/// Random positions, their coordinates rounded to float.
 template <class P>
-std::vector<Place> float_places(double low, double high) {
-  std::vector<Place> places = random_places<P>(16384, low, high);
-  for (Place& at : places) at = {at.chart, static_cast<float>(at.u), static_cast<float>(at.v)};
-  return places;
+std::vector<Position> float_positions(double low, double high) {
+  std::vector<Position> positions = random_positions<P>(16384, low, high);
+  for (Position& at : positions) at = {at.chart, static_cast<float>(at.u), static_cast<float>(at.v)};
+  return positions;
 }
 
 /// The same of one chart, so that a pack can be filled.
 template <class P>
-std::vector<Place> float_places_of(int chart, double low, double high) {
-  std::vector<Place> places = float_places<P>(low, high);
-  for (Place& at : places) at.chart = chart;
-  places.resize(places.size() / Pack::size / P::kCharts * Pack::size);
-  return places;
+std::vector<Position> float_positions_of(int chart, double low, double high) {
+  std::vector<Position> positions = float_positions<P>(low, high);
+  for (Position& at : positions) at.chart = chart;
+  positions.resize(positions.size() / Pack::size / P::kCharts * Pack::size);
+  return positions;
 }
 
 TYPED_TEST(ParameterizationPrecisionTest, FloatDirectionsAgreeWithDouble) {
   const TypeParam p;
-  for (const Place& at : float_places<TypeParam>(0, 1)) {
+  for (const Position& at : float_positions<TypeParam>(0, 1)) {
     if (!p.valid(at.chart, at.u, at.v)) continue;
     expect_direction(p, at, p.to_sphere(at.chart, static_cast<float>(at.u), static_cast<float>(at.v)));
     if (this->HasFatalFailure()) return;
   }
 }
 
-TYPED_TEST(ParameterizationPrecisionTest, FloatPlacesAgreeWithDouble) {
+TYPED_TEST(ParameterizationPrecisionTest, FloatPositionsAgreeWithDouble) {
   const TypeParam p;
   for (const Vec3d& d : all_directions()) {
-    expect_place(p, rounded(d), p.from_sphere(rounded(d)));
+    expect_position(p, rounded(d), p.from_sphere(rounded(d)));
     if (this->HasFatalFailure()) return;
   }
 }
 
 TYPED_TEST(ParameterizationPrecisionTest, FloatDensityAgreesWithDouble) {
   const TypeParam p;
-  for (const Place& at : float_places<TypeParam>(0.001, 0.999)) {
+  for (const Position& at : float_positions<TypeParam>(0.001, 0.999)) {
     if (!well_inside(p, at, 0.005)) continue;
     expect_density(p, at,
                    p.solid_angle_density(at.chart, static_cast<float>(at.u), static_cast<float>(at.v)));
@@ -103,19 +103,19 @@ TYPED_TEST(ParameterizationPrecisionTest, FloatDensityAgreesWithDouble) {
 TYPED_TEST(ParameterizationPrecisionTest, PacksAgreeWithDoubleInEveryLane) {
   const TypeParam p;
   for (int chart = 0; chart < TypeParam::kCharts; ++chart) {
-    const std::vector<Place> places = float_places_of<TypeParam>(chart, 0, 1);
-    for (std::size_t i = 0; i < places.size(); i += Pack::size) {
+    const std::vector<Position> positions = float_positions_of<TypeParam>(chart, 0, 1);
+    for (std::size_t i = 0; i < positions.size(); i += Pack::size) {
       float us[Pack::size], vs[Pack::size];
       for (std::size_t lane = 0; lane < Pack::size; ++lane) {
-        us[lane] = static_cast<float>(places[i + lane].u);
-        vs[lane] = static_cast<float>(places[i + lane].v);
+        us[lane] = static_cast<float>(positions[i + lane].u);
+        vs[lane] = static_cast<float>(positions[i + lane].v);
       }
       const Pack u = Pack::load_unaligned(us), v = Pack::load_unaligned(vs);
       const Vec3<Pack> d = p.to_sphere(chart, u, v);
       const Pack density = p.solid_angle_density(chart, u, v);
       const Mask<Pack> valid = p.valid(chart, u, v);
       for (std::size_t lane = 0; lane < Pack::size; ++lane) {
-        const Place& at = places[i + lane];
+        const Position& at = positions[i + lane];
         if (well_inside(p, at, 0.005)) expect_density(p, at, density.get(lane));
         if (well_inside(p, at, 1e-6)) {
           ASSERT_TRUE(valid.get(lane)) << at.u << " " << at.v;
@@ -129,7 +129,7 @@ TYPED_TEST(ParameterizationPrecisionTest, PacksAgreeWithDoubleInEveryLane) {
   }
 }
 
-TYPED_TEST(ParameterizationPrecisionTest, PacksFindTheirPlacesWithADifferentChartInEveryLane) {
+TYPED_TEST(ParameterizationPrecisionTest, PacksFindTheirPositionsWithADifferentChartInEveryLane) {
   const TypeParam p;
   std::vector<Vec3d> directions = all_directions();
   // Neighbours of the list go to different lanes' charts.
@@ -146,7 +146,7 @@ TYPED_TEST(ParameterizationPrecisionTest, PacksFindTheirPlacesWithADifferentChar
     const Mask<Pack> covered = p.covers(d);
     for (std::size_t lane = 0; lane < Pack::size; ++lane) {
       const Vec3<float> one{x[lane], y[lane], z[lane]};
-      expect_place(p, one, {at.chart.get(lane), at.u.get(lane), at.v.get(lane)});
+      expect_position(p, one, {at.chart.get(lane), at.u.get(lane), at.v.get(lane)});
       ASSERT_EQ(covered.get(lane), p.covers(one)) << one.x << " " << one.y << " " << one.z;
       if (this->HasFatalFailure()) return;
     }
@@ -160,7 +160,7 @@ TYPED_TEST(ParameterizationPrecisionTest, PacksFindTheirPlacesWithADifferentChar
 /// Packs are finite, of unit length and as double says in the margin, where borders are filled.
 TYPED_TEST(ParameterizationPrecisionTest, PacksAgreeWithDoubleInTheMargin) {
   const TypeParam p;
-  for (const Place& at : float_places<TypeParam>(-1, 2)) {
+  for (const Position& at : float_positions<TypeParam>(-1, 2)) {
     const Vec3<Pack> d =
         p.to_sphere(at.chart, Pack(static_cast<float>(at.u)), Pack(static_cast<float>(at.v)));
     // Angles up to 6 turns, and coordinates up to 2, are rounded to four times as much.

@@ -14,10 +14,10 @@ template <class P>
 class ParameterizationTest : public ::testing::Test {};
 TYPED_TEST_SUITE(ParameterizationTest, Cases, CaseName);
 
-TYPED_TEST(ParameterizationTest, PlaceToDirectionAndBackIsTheSamePlace) {
+TYPED_TEST(ParameterizationTest, PositionToDirectionAndBackIsTheSamePosition) {
   const TypeParam p;
   int checked = 0;
-  for (const Place& at : random_places<TypeParam>(20000, 0, 1)) {
+  for (const Position& at : random_positions<TypeParam>(20000, 0, 1)) {
     if (!well_inside(p, at, 1e-6)) continue;
     const ChartPoint<double> back = p.from_sphere(p.to_sphere(at.chart, at.u, at.v));
     ASSERT_EQ(back.chart, at.chart) << at.u << " " << at.v;
@@ -29,7 +29,7 @@ TYPED_TEST(ParameterizationTest, PlaceToDirectionAndBackIsTheSamePlace) {
   EXPECT_GT(checked, 8000);
 }
 
-TYPED_TEST(ParameterizationTest, DirectionToPlaceAndBackIsTheSameDirection) {
+TYPED_TEST(ParameterizationTest, DirectionToPositionAndBackIsTheSameDirection) {
   const TypeParam p;
   for (const Vec3d& d : all_directions()) {
     const ChartPoint<double> at = p.from_sphere(d);
@@ -43,7 +43,7 @@ TYPED_TEST(ParameterizationTest, DirectionToPlaceAndBackIsTheSameDirection) {
   }
 }
 
-TYPED_TEST(ParameterizationTest, CoveredDirectionsLandOnValidPlaces) {
+TYPED_TEST(ParameterizationTest, CoveredDirectionsLandOnValidPositions) {
   const TypeParam p;
   for (const Vec3d& d : all_directions()) {
     if (!p.covers(d)) continue;
@@ -70,7 +70,7 @@ TYPED_TEST(ParameterizationTest, LengthOfTheDirectionDoesNotMatter) {
 
 TYPED_TEST(ParameterizationTest, DirectionsHaveUnitLengthInTheMarginToo) {
   const TypeParam p;
-  for (const Place& at : random_places<TypeParam>(20000, -1, 2)) {
+  for (const Position& at : random_positions<TypeParam>(20000, -1, 2)) {
     ASSERT_NEAR(length(p.to_sphere(at.chart, at.u, at.v)), 1, 1e-14) << at.u << " " << at.v;
   }
 }
@@ -78,7 +78,7 @@ TYPED_TEST(ParameterizationTest, DirectionsHaveUnitLengthInTheMarginToo) {
 TYPED_TEST(ParameterizationTest, DensityIsTheAreaSpannedByTheDerivatives) {
   const TypeParam p;
   int checked = 0;
-  for (const Place& at : lattice_places<TypeParam>(48)) {
+  for (const Position& at : lattice_positions<TypeParam>(48)) {
     if (!well_inside(p, at, 0.005)) continue;
     const Tangents t = tangents(p, at, 1e-5);
     const double density = p.solid_angle_density(at.chart, at.u, at.v);
@@ -107,7 +107,7 @@ TYPED_TEST(ParameterizationTest, DensityIsFiniteAndNeverNegativeOnTheWholeChart)
 TYPED_TEST(ParameterizationTest, DensityByRowDependsOnTheRowAlone) {
   const TypeParam p;
   if (!traits_of<TypeParam>().density_by_row) return;
-  for (const Place& at : random_places<TypeParam>(200, 0.01, 0.99)) {
+  for (const Position& at : random_positions<TypeParam>(200, 0.01, 0.99)) {
     ASSERT_NEAR(p.solid_angle_density(at.chart, at.u, at.v), p.solid_angle_density(at.chart, 0.5, at.v),
                 1e-12);
   }
@@ -150,7 +150,7 @@ TYPED_TEST(ParameterizationTest, PicturesAreSeenFromInsideSaveTheMirroredOnes) {
                                       "octahedral-rect", "octahedral-equal-area"}) {
     mirrored = mirrored || name == TypeParam::kName;
   }
-  for (const Place& at : lattice_places<TypeParam>(16)) {
+  for (const Position& at : lattice_positions<TypeParam>(16)) {
     if (!well_inside(p, at, 0.001)) continue;
     const Tangents t = tangents(p, at, 1e-5);
     const double side = dot(cross(t.along_u, t.along_v), p.to_sphere(at.chart, at.u, at.v));

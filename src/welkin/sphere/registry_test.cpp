@@ -9,7 +9,7 @@
 namespace welkin::sphere {
 namespace {
 
-TEST(Registry, MakesEveryNameAndTellsItAgain) {
+TEST(Registry, EveryNameMakesAParameterizationOfThatName) {
   for (const std::string& name : parameterization_names()) {
     const auto p = AnyParameterization::make(name);
     EXPECT_EQ(p.name(), name);

@@ -5,7 +5,7 @@
 namespace welkin::sphere {
 
 /// The upper half of LatLong: u as there, v = 0 at the zenith and 1 at the horizon. Past its edges LatLong
-/// goes on.
+/// continues.
 struct SkyLatLong {
   static constexpr const char* kName = "sky-latlong";
   static constexpr int kCharts = 1;

@@ -51,7 +51,7 @@ int grid_line(const Vec3d& d, double azimuth, double elevation) {
 }
 
 /// The target around each corner of the cube: black and white rings, each 0.8 times as wide as the one
-/// outside it, so that sharpness is where they melt together. False outside; `white` says which.
+/// outside it, so that the radius where they merge shows the resolution. False outside; `white` says which.
 bool corner_target(const Vec3d& d, bool& white) {
   constexpr double kRadius = 7;
   const double cosine = (abs(d.x) + abs(d.y) + abs(d.z)) / std::sqrt(3.0);
@@ -136,10 +136,10 @@ bool azimuth_label(const Color& ground, const Color& ink, const Vec3d& d, Color&
 }
 
 Color paint(const Vec3d& d) {
-  const sphere::ChartPoint<double> place = sphere::cube_face_of(d);
-  const auto face = static_cast<int>(place.chart);
+  const sphere::ChartPoint<double> position = sphere::cube_face_of(d);
+  const auto face = static_cast<int>(position.chart);
   const Side& side = kSides[face];
-  const double x = -place.u, y = place.v;
+  const double x = -position.u, y = position.v;
   const double azimuth = atan2(d.x, d.z) / kDegree;
   const double elevation = atan2(d.y, sqrt(d.x * d.x + d.z * d.z)) / kDegree;
 

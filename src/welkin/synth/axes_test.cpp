@@ -99,7 +99,8 @@ TEST_F(Axes, SignpostsNameTheSideBeyondTheEdge) {
   constexpr double kHeight = 0.095, kMiddle = 0.71, kOffset[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
   for (int face = 0; face < 6; ++face) {
     for (const auto& [right, down] : kOffset) {
-      // Left of the middle by the sign's place in the text; letters differ in width by 0.06 of their height.
+      // Left of the middle by the sign's position in the text; letters differ in width by 0.06 of their
+      // height.
       const double x = kMiddle * right - 0.47 * kHeight, y = kMiddle * down;
       const auto paper = map_(kViews[face].at(x, y - 0.45 * kHeight));
       const double upright = distance(map_(kViews[face].at(x, y - 0.2 * kHeight)), paper);

@@ -11,7 +11,7 @@
 namespace welkin {
 namespace {
 
-constexpr int kMostSamples = 64;
+constexpr int kMaxSamples = 64;
 constexpr int kBatch = 256;
 
 struct Mean {
@@ -26,7 +26,7 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
   const auto& p = map.parameterization;
   const std::size_t size = static_cast<std::size_t>(count);
   Mean means[kBatch];
-  const auto place = [&](double right, double down) {
+  const auto set_positions = [&](double right, double down) {
     for (int i = 0; i < kBatch; ++i) {
       u[i] = static_cast<float>((x + std::min(i, count - 1) + right) / map.width());
       v[i] = static_cast<float>((y + down) / map.height());
@@ -34,10 +34,10 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
     p.kernels().valid(p.self(), chart, u, v, valid, size);
   };
 
-  // Add up the samples, place by place in all texels.
+  // Sum the samples: for each position within a texel, over all texels.
   for (int k = 0; k < samples * samples; ++k) {
     const int column = k % samples, row = k / samples;
-    place((column + (row + 0.5) / samples) / samples, (row + (column + 0.5) / samples) / samples);
+    set_positions((column + (row + 0.5) / samples) / samples, (row + (column + 0.5) / samples) / samples);
     p.kernels().density(p.self(), chart, u, v, density, size);
     p.kernels().to_sphere(p.self(), chart, u, v, dx, dy, dz, size);
     for (int i = 0; i < count; ++i) {
@@ -50,7 +50,7 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
     }
   }
 
-  place(0.5, 0.5);
+  set_positions(0.5, 0.5);
   float* out = map.level.chart(chart).at(x, y);
   for (int i = 0; i < count; ++i, out += 3) {
     if (!(valid[i] > 0) || !(means[i].weight > 0)) continue;
@@ -62,9 +62,9 @@ void render_batch(const synth::Radiance& radiance, Map& map, const Matrix3& to_w
 
 Map render(const synth::Radiance& radiance, const sphere::AnyParameterization& parameterization, int width,
            int height, const RenderOptions& options) {
-  if (options.samples < 1 || options.samples > kMostSamples) {
+  if (options.samples < 1 || options.samples > kMaxSamples) {
     throw Error(ErrorKind::bad_request, "samples along a texel's side must be 1 to " +
-                                            std::to_string(kMostSamples) + ", not " +
+                                            std::to_string(kMaxSamples) + ", not " +
                                             std::to_string(options.samples));
   }
   if (!is_orthonormal(options.orientation))

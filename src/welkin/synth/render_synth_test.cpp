@@ -63,7 +63,7 @@ TEST(RenderSynth, TexelsShowTheWorldInTheirDirection) {
   }
 }
 
-TEST(RenderSynth, PlacesOutsideTheMapAreBlackAndNotAsked) {
+TEST(RenderSynth, TexelsOutsideTheMapAreBlackAndNotEvaluated) {
   std::atomic<int> behind{0};
   const auto front = [&](const Vec3d& d) {
     if (d.z < -1e-5) ++behind;

@@ -5,8 +5,8 @@
 #include "welkin/synth/maps.h"
 
 /// A clear sky: "A Practical Analytic Model for Daylight", Preetham, Shirley & Smits 1999, for the sky's
-/// colour (their appendix A.2) and the sunlight that is left after the air (A.1, without ozone, mixed gases
-/// and water vapour, some percent). One unit is 10 kcd/m².
+/// colour (their appendix A.2) and for the sunlight after the atmosphere's attenuation (A.1, without ozone,
+/// mixed gases and water vapour, some percent). One unit is 10 kcd/m².
 ///
 /// What the model leaves open: colours outside the gamut of sRGB have their negative components raised to 0;
 /// the ground is an even diffuse plain under that sun and sky, fading into the horizon with distance.
@@ -24,8 +24,8 @@ struct Perez {
   }
 };
 
-/// Value at the zenith, and how it spreads: value(θ, γ) = zenith · F(θ, γ) / F(0, θ_sun).
-struct Spread {
+/// Value at the zenith, and its distribution over the sky: value(θ, γ) = zenith · F(θ, γ) / F(0, θ_sun).
+struct Distribution {
   Perez perez;
   double scale;
   double operator()(double zenith, double sun) const { return scale * perez(zenith, sun); }
@@ -63,16 +63,18 @@ class Sky {
     const double chi = (4.0 / 9 - t / 120) * (kPi - 2 * s);
     // Tens of kcd/m².
     const double zenith = 0.1 * ((4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192);
-    const auto spread = [&](const Perez& perez, double value) { return Spread{perez, value / perez(0, s)}; };
-    luminance_ = spread({0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
-                         -0.0670 * t + 0.3703},
-                        zenith);
-    x_ = spread({-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
-                 -0.0033 * t + 0.0452},
-                zenith_chromaticity(kZenithX, t, s));
-    y_ = spread({-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
-                 -0.0109 * t + 0.0529},
-                zenith_chromaticity(kZenithY, t, s));
+    const auto distribution = [&](const Perez& perez, double value) {
+      return Distribution{perez, value / perez(0, s)};
+    };
+    luminance_ = distribution({0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251,
+                               0.1206 * t - 2.5771, -0.0670 * t + 0.3703},
+                              zenith);
+    x_ = distribution({-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
+                       -0.0033 * t + 0.0452},
+                      zenith_chromaticity(kZenithX, t, s));
+    y_ = distribution({-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
+                       -0.0109 * t + 0.0529},
+                      zenith_chromaticity(kZenithY, t, s));
   }
 
   /// At or above the horizon.
@@ -83,7 +85,7 @@ class Sky {
 
  private:
   Vec3d sun_;
-  Spread luminance_{}, x_{}, y_{};
+  Distribution luminance_{}, x_{}, y_{};
 };
 
 /// Irradiance of the sky on level ground: ∫ L cos θ dω over the upper hemisphere, midpoint rule (1e-3).

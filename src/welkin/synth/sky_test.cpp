@@ -61,7 +61,7 @@ TEST(Sky, IsBlueAwayFromTheSunAndItsLowSunIsRed) {
   EXPECT_GT(sun_g, 2 * sun_b);
 }
 
-// A wider disc carries the same sunlight: radiance × solid angle stays. The sky's own part is taken off.
+// A wider disc carries the same sunlight: radiance × solid angle stays. The sky's own part is subtracted.
 TEST(Sky, SunlightDoesNotDependOnTheDiscsSize) {
   const Vec3d sun = direction_at(0, 50);
   const auto sunlight = [&](double diameter) {

@@ -57,7 +57,8 @@ Color cove(const std::vector<Box>& all, const Vec3d& d) {
   return (kAlbedo / kPi) * sum + Color{0.004, 0.004, 0.0045};
 }
 
-/// Radiance of the cloth at (x, y) ∈ [−1, 1]² of a box: brightest in the middle, falling softly at the hem.
+/// Radiance of the cloth at (x, y) ∈ [−1, 1]² of a box: brightest in the middle, falling off smoothly at the
+/// edges.
 Color cloth(const Box& box, double x, double y) {
   const double middle = 1 - box.hot_spot * min(0.5 * (x * x + y * y), 1.0);
   const double hem_x = 0.12 * min(box.light.half_height / box.light.half_width, 1.0) + 0.02;

@@ -137,7 +137,7 @@ TEST(Synth, SunHoldsItsEnergy) {
   for (const double diameter : {0.5331, 10.0, 180.0}) {
     const Radiance map = make("sun", {.angle = diameter, .intensity = 5e4, .elevation = -20, .azimuth = 100});
     const double radius = diameter * kDegree / 2, pitch = radius / 2000;
-    // Two vectors square to the sun's direction.
+    // Two vectors perpendicular to the sun's direction.
     const Vec3d sun = direction_at(100, -20), side = direction_at(190, 0), up = cross(sun, side);
     double energy = 0;
     for (int ring = 0; ring < 3000; ++ring) {

@@ -188,7 +188,7 @@ void AttributeParser::parse_channels(Cursor& value) {
     const auto type = value.take<std::int32_t>();
     if (type < 0 || type > 2) value.fail("channel '" + channel.name + "' has an unknown type");
     channel.type = static_cast<StoredType>(type);
-    value.take<std::uint32_t>();  // how the values are perceived: of no use in reading
+    value.take<std::uint32_t>();  // how the values are perceived: ignored
     channel.x_sampling = value.take<std::int32_t>();
     channel.y_sampling = value.take<std::int32_t>();
     part_.channels.push_back(std::move(channel));

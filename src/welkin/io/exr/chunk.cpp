@@ -57,14 +57,14 @@ inline float float_of_half(std::uint16_t half) {
 /// The same for four halves in the lower 16 bits of each lane.
 inline __m128i floats_of_halves(__m128i half) {
   const __m128i rebias = _mm_set1_epi32((127 - 15) << 23);
-  const __m128i lowest_normal = _mm_set1_epi32((127 - 14) << 23);
+  const __m128i min_normal = _mm_set1_epi32((127 - 14) << 23);
   const __m128i magnitude = _mm_and_si128(half, _mm_set1_epi32(0x7fff));
   const __m128i shifted = _mm_slli_epi32(magnitude, 13);
   const __m128i no_number = _mm_cmpgt_epi32(magnitude, _mm_set1_epi32(0x7bff));
   const __m128i is_subnormal = _mm_cmpgt_epi32(_mm_set1_epi32(0x400), magnitude);
   const __m128i normal = _mm_add_epi32(_mm_add_epi32(shifted, rebias), _mm_and_si128(no_number, rebias));
   const __m128i subnormal = _mm_castps_si128(
-      _mm_sub_ps(_mm_castsi128_ps(_mm_add_epi32(shifted, lowest_normal)), _mm_castsi128_ps(lowest_normal)));
+      _mm_sub_ps(_mm_castsi128_ps(_mm_add_epi32(shifted, min_normal)), _mm_castsi128_ps(min_normal)));
   const __m128i chosen =
       _mm_or_si128(_mm_and_si128(is_subnormal, subnormal), _mm_andnot_si128(is_subnormal, normal));
   return _mm_or_si128(chosen, _mm_slli_epi32(_mm_xor_si128(half, magnitude), 16));

@@ -17,13 +17,13 @@ namespace {
 
 using namespace exr_test;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 24;
 
 /// What opening and reading all parts throws, or empty.
 std::string failure(std::span<const std::byte> bytes) {
   try {
     ReadOptions options;
-    options.max_bytes = kMostBytes;
+    options.max_bytes = kMaxBytes;
     const auto reader = open(bytes, "test.exr", options);
     for (std::size_t part = 0; part < reader->info().parts.size(); ++part) read_all(*reader, part);
   } catch (const Error& error) {
@@ -162,7 +162,7 @@ TEST(ExrDamage, AFileTooShortForItsPixelsIsRefusedWhenOpened) {
   }
 }
 
-TEST(ExrDamage, ChunksOfOtherPlacesAreRefused) {
+TEST(ExrDamage, ChunksOfOtherPositionsAreRefused) {
   const Folder folder;
   auto bytes = small_file(folder, Imf::ZIP_COMPRESSION, false);
   const std::size_t table = chunk_table(bytes, 3);

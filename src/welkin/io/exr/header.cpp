@@ -169,7 +169,7 @@ std::optional<Part> parse_header(const Source& source, Cursor& cursor, std::uint
   return part;
 }
 
-/// Takes the part's chunk table; entries of level 0 must point behind all tables and into the file.
+/// Reads the part's chunk table; entries of level 0 must point behind all tables and into the file.
 void place_table(const Source& source, Part& part, Cursor& cursor) {
   part.table = cursor.offset();
   if (part.chunk_count > cursor.left() / sizeof(std::uint64_t))
@@ -291,9 +291,9 @@ std::span<const std::byte> chunk_bytes(std::span<const std::byte> bytes, const F
     throw Error(ErrorKind::damaged, "the chunk's size " + std::to_string(size) +
                                         " passes the file's end (byte " + std::to_string(cursor.offset()) +
                                         ")");
-  const auto most = static_cast<std::uint64_t>(window.width()) * static_cast<std::uint64_t>(window.height()) *
-                    part.bytes_per_pixel();
-  if (static_cast<std::uint64_t>(size) > most)
+  const auto maximum = static_cast<std::uint64_t>(window.width()) *
+                       static_cast<std::uint64_t>(window.height()) * part.bytes_per_pixel();
+  if (static_cast<std::uint64_t>(size) > maximum)
     throw Error(ErrorKind::too_large,
                 "the chunk's size " + std::to_string(size) + " is more than its pixels need");
   return cursor.take_bytes(static_cast<std::size_t>(size));

@@ -73,7 +73,7 @@ struct Part {
   /// Levels of a mip pyramid, those after own_levels left out. 1 when it is none, or when its levels cannot
   /// be placed: the data window is not the display window, or colour is luminance and chroma.
   int levels() const;
-  /// Pixels of a level: level 0's first, and its size halved time and again.
+  /// Pixels of a level: level 0's first, and its size halved repeatedly.
   Window level_window(int level) const;
   /// Y with RY and BY at half the resolution: luminance and chroma in place of R G B.
   bool luminance_chroma() const;

@@ -102,8 +102,8 @@ WriteReport write_levels(Imf::OStream& stream, Imf::Header header, std::span<con
   header.setType(Imf::TILEDIMAGE);
   header.setTileDescription({kTile, kTile, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN});
   const auto given = static_cast<int>(levels.size());
-  const int most = level_count(levels[0].image.width, levels[0].image.height);
-  if (given < most) header.insert(std::string(kOwnLevels), Imf::IntAttribute(given));
+  const int maximum = level_count(levels[0].image.width, levels[0].image.height);
+  if (given < maximum) header.insert(std::string(kOwnLevels), Imf::IntAttribute(given));
 
   Imf::TiledOutputFile output(stream, header, threads);
   WriteReport report, of_averages;
@@ -115,7 +115,7 @@ WriteReport write_levels(Imf::OStream& stream, Imf::Header header, std::span<con
     finer = draw_rows(part, 0, part.image.height, drawn);
     write_level(output, level, levels[0], finer, type, report);
   }
-  for (int level = given; level < most; ++level) {
+  for (int level = given; level < maximum; ++level) {
     average = halved(finer);
     finer = average.view();
     write_level(output, level, levels[0], finer, type, of_averages);

@@ -43,7 +43,7 @@ Window window_of(const Imath::Box2i& box) {
   return {box.min.x, box.min.y, box.max.x, box.max.y};
 }
 
-/// The library parses the header again: it must come to what the checks were made on.
+/// The library parses the header again: its result must be what was checked.
 void check_same(const Part& part, const Imf::Header& header) {
   bool same = window_of(header.dataWindow()) == part.data &&
               static_cast<int>(header.compression()) == static_cast<int>(part.compression) &&

@@ -34,7 +34,7 @@ class LibraryPart {
 
 /// Reads a luminance/chroma file as linear R G B (A): `channels` are numbers in this order. Chroma is
 /// interpolated and RGB formed as by Imf::RgbaInputFile, in half precision. Single-part files only. `row` is
-/// where it stands when it throws.
+/// the row it was at when it throws.
 void read_luminance_chroma(std::span<const std::byte> bytes, const std::string& name, const File& file,
                            const Destination& destination, int& row);
 

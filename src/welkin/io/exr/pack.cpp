@@ -86,7 +86,7 @@ struct Piece {
   WriteReport report;
 };
 
-/// Takes interleaved texels apart: channel c goes to planes[c], of any alignment.
+/// Deinterleaves texels: channel c goes to planes[c], of any alignment.
 void split_channels(const float* texels, int channels, std::size_t count, std::byte* const* planes) {
   std::size_t x = 0;
 #ifdef __SSE2__

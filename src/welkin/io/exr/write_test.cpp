@@ -64,7 +64,7 @@ constexpr Bound kBounds[]{{"none", 0, 0, 0},        {"rle", 0, 0, 0},       {"zi
 TEST(ExrWrite, EveryCompressionKeepsEveryTypeWithinItsBound) {
   const Folder folder;
   for (const Bound& bound : kBounds) {
-    for (const auto& [type, most] :
+    for (const auto& [type, maximum] :
          {std::pair{PixelType::half, bound.half}, std::pair{PixelType::float32, bound.float32},
           std::pair{PixelType::uint32, bound.uint32}})
       for (const auto& [width, height] : {std::pair{1, 1}, std::pair{301, 67}, std::pair{40, 700}}) {
@@ -73,7 +73,8 @@ TEST(ExrWrite, EveryCompressionKeepsEveryTypeWithinItsBound) {
         options.type = type;
         options.compression = bound.compression;
         const double error = largest_relative_error(image, round_trip(folder, image, options));
-        EXPECT_LE(error, most) << bound.compression << ' ' << name_of(type) << ' ' << width << 'x' << height;
+        EXPECT_LE(error, maximum) << bound.compression << ' ' << name_of(type) << ' ' << width << 'x'
+                                  << height;
       }
   }
 }
@@ -199,7 +200,7 @@ TEST(ExrWrite, TheSameBytesEachTime) {
   }
 }
 
-TEST(ExrWrite, RefusesWhatTheFormatHasNoPlaceFor) {
+TEST(ExrWrite, RefusesWhatTheFormatCannotStore) {
   const Folder folder;
   const Image image = picture(4, 4, 2, PixelType::half);
   const std::string path = folder / "refused.exr";

@@ -15,7 +15,7 @@ namespace welkin::io::exr {
 /// Attributes are written as strings, but for the names that EXR gives another type, which are left out.
 /// In half, finite values beyond ±65504 are clipped to it and counted in WriteReport::above. In uint32,
 /// values are rounded to nearest; negative ones become 0 (`below`), those over 2^32 − 1 are clipped
-/// (`above`), and neither NaN nor infinity has a place (`not_finite`, written as 0). Float keeps everything.
+/// (`above`), and NaN and infinities are counted in `not_finite` and written as 0. Float keeps everything.
 /// The same input gives the same bytes. Throws Error, the cause only.
 /// Throws Error for a type or a compression that EXR lacks.
 void check_exr_options(const WriteOptions& options);

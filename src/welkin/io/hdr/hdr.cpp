@@ -34,13 +34,13 @@ class HdrReader : public Reader {
  public:
   explicit HdrReader(const Source& source) : source_(source), header_(parse_hdr_header(source)) {
     const std::size_t held = source.bytes.size() - header_.pixels_at;
-    const std::uint64_t least =
-        static_cast<std::uint64_t>(header_.lines()) * least_hdr_line_bytes(header_.line_length());
-    if (held < least) {
+    const std::uint64_t minimum =
+        static_cast<std::uint64_t>(header_.lines()) * min_hdr_line_bytes(header_.line_length());
+    if (held < minimum) {
       throw Error(ErrorKind::damaged, source.name,
                   "ends early (byte " + std::to_string(source.bytes.size()) +
                       "): " + std::to_string(header_.lines()) + " scan lines need at least " +
-                      std::to_string(least) + " bytes");
+                      std::to_string(minimum) + " bytes");
     }
     HdrCoding coding;
     line_end(0, header_.pixels_at, coding);

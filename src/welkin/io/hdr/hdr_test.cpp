@@ -163,9 +163,9 @@ TEST(Hdr, ExposuresMultiplyUpAndAreDividedOut) {
   EXPECT_EQ(image.at(0, 0)[2], 32.0f);
   for (const char* unusable :
        {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=x\n", "EXPOSURE=nan\n", "COLORCORR=1 1\n"}) {
-    const Bytes odd = picture(unusable, "-Y 1 +X 1", {128, 128, 128, 136});
-    EXPECT_EQ(decoded(odd).at(0, 0)[0], 128.0f) << unusable;
-    EXPECT_NE(info_of(odd).notes.at(0).find("is ignored"), std::string::npos) << unusable;
+    const Bytes file = picture(unusable, "-Y 1 +X 1", {128, 128, 128, 136});
+    EXPECT_EQ(decoded(file).at(0, 0)[0], 128.0f) << unusable;
+    EXPECT_NE(info_of(file).notes.at(0).find("is ignored"), std::string::npos) << unusable;
   }
 }
 

@@ -12,8 +12,8 @@ namespace welkin::io {
 /// The text at the head of a Radiance picture (Ward, "Radiance File Formats", 1997) and the order of its
 /// pixels.
 ///
-/// EXPOSURE and COLORCORR are multipliers that were applied to the pixels; each may stand many times and they
-/// multiply up. Radiance is the stored value divided by them.
+/// EXPOSURE and COLORCORR are multipliers that were applied to the pixels; each may occur several times, and
+/// their product applies. Radiance is the stored value divided by them.
 struct HdrHeader {
   bool xyze = false;
   double divisor[3] = {1, 1, 1};  ///< EXPOSURE·COLORCORR of R, G, B

@@ -90,7 +90,7 @@ std::size_t hdr_line_end(std::span<const std::byte> bytes, std::size_t at, int l
   return flat_end(bytes, at, length, coding);
 }
 
-std::uint64_t least_hdr_line_bytes(int length) {
+std::uint64_t min_hdr_line_bytes(int length) {
   // One pixel, then old runs of at most 255, 255·2^8, 255·2^16 …
   std::uint64_t bytes = 4;
   std::int64_t left = length - 1;
@@ -103,7 +103,7 @@ void decode_hdr_line(const std::byte* line, HdrCoding coding, HdrPlanes& planes)
   const int length = planes.length();
   if (coding == HdrCoding::components) {
     data += 4;
-    // The planes stand one after the other, and no run passes the end of its own.
+    // The planes follow each other, and no run passes the end of its own.
     std::uint8_t* out = planes[0];
     std::uint8_t* const end = out + 4 * static_cast<std::size_t>(length);
     while (out < end) {

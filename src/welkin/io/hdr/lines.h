@@ -24,7 +24,7 @@ inline constexpr int kLongestComponentLine = 32767;
 std::size_t hdr_line_end(std::span<const std::byte> bytes, std::size_t at, int length, HdrCoding& coding);
 
 /// The fewest bytes that could hold such a scan line: one pixel, then runs.
-std::uint64_t least_hdr_line_bytes(int length);
+std::uint64_t min_hdr_line_bytes(int length);
 
 /// Four planes R G B E of one scan line.
 class HdrPlanes {

@@ -17,7 +17,7 @@
 namespace welkin::io {
 namespace {
 
-/// x inside [0, kLargestRgbe], with what that cost.
+/// x clamped to [0, kLargestRgbe]; counts what is lost.
 float to_rgbe_range(float x, WriteReport& report) {
   if (x >= 0 && x <= kLargestRgbe) [[likely]] {
     return x;

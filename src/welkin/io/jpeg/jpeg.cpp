@@ -55,7 +55,7 @@ class Decoder {
     input_.init_source = [](j_decompress_ptr) {};
     input_.term_source = [](j_decompress_ptr) {};
     input_.resync_to_restart = jpeg_resync_to_restart;
-    // The whole file is in the buffer, so whoever asks for more has met its end.
+    // The whole file is in the buffer, so a request for more means that it ends too early.
     input_.fill_input_buffer = [](j_decompress_ptr codec) -> boolean {
       ERREXIT(codec, JERR_INPUT_EOF);
       return FALSE;
@@ -77,7 +77,7 @@ class Decoder {
     jpeg_read_header(&codec_, TRUE);
   }
 
-  /// libjpeg warns and then makes pixels up. Only what leaves the picture as it was meant passes.
+  /// libjpeg warns and then invents pixels. Only warnings that leave the picture intact are accepted.
   static void judge_warning(j_common_ptr codec, int level) {
     if (level >= 0) return;
     switch (codec->err->msg_code) {
@@ -93,9 +93,9 @@ class Decoder {
 
   /// Each scan of a progressive file costs a pass over the whole picture, and may hold next to no bytes.
   static void limit_scans(j_common_ptr codec) {
-    constexpr int kMostScans = 500;
+    constexpr int kMaxScans = 500;
     if (codec->is_decompressor == TRUE &&
-        reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number > kMostScans) {
+        reinterpret_cast<j_decompress_ptr>(codec)->input_scan_number > kMaxScans) {
       ERREXIT(codec, JERR_BAD_PROGRESSION);
     }
   }

@@ -15,7 +15,7 @@ namespace welkin::io::ktx2 {
 /// The descriptor of a format's texels: RGB primaries of BT.709, straight alpha. `colour` is linear or srgb.
 std::vector<std::byte> written_descriptor(const TexelFormat& format, Colour colour);
 
-/// What reading wants to know of a descriptor.
+/// What reading needs from a descriptor.
 struct Descriptor {
   Colour colour = Colour::linear;
   std::vector<std::string> notes;  ///< primaries and transfer functions that are not converted, alpha

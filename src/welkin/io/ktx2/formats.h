@@ -7,7 +7,7 @@
 
 #include "welkin/io/image_file.h"
 
-/// VkFormats, the names by which KTX2 calls what a texel is. Source: the Vulkan specification, "Formats".
+/// VkFormats, by which KTX2 names the type of its texels. Source: the Vulkan specification, "Formats".
 namespace welkin::io::ktx2 {
 
 /// A format whose texels are read. They are `channels` values of one type, or are packed into 32 bits.

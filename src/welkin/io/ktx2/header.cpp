@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "KTX2's numbers are re
 constexpr std::array<unsigned char, 12> kIdentifier{0xab, 'K',  'T',  'X',  ' ',  '2',
                                                     '0',  0xbb, '\r', '\n', 0x1a, '\n'};
 
-/// Where the fields stand.
+/// Byte offsets of the fields.
 namespace at {
 constexpr std::size_t vk_format = 12, type_size = 16, width = 20, height = 24, depth = 28, layers = 32,
                       faces = 36, levels = 40, scheme = 44, descriptor = 48, keys = 56, global = 64,
@@ -84,10 +84,10 @@ void parse_shape(const Fields& fields, const Source& source, Header& header) {
   header.height = static_cast<int>(std::max(height, 1u));
 
   const std::uint32_t stated = fields.word(at::levels);
-  const auto most = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
-  if (stated > most) {
+  const auto maximum = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
+  if (stated > maximum) {
     fields.fail(std::to_string(stated) + " levels, of which " + std::to_string(width) + "×" +
-                    std::to_string(height) + " has at most " + std::to_string(most),
+                    std::to_string(height) + " has at most " + std::to_string(maximum),
                 at::levels);
   }
   header.asks_for_levels = stated == 0;
@@ -133,7 +133,7 @@ void parse_level(const Fields& fields, const Source& source, const Header& heade
   }
 }
 
-/// Every section lies in the file, and none on another.
+/// Every section lies in the file, and no two overlap.
 void check_sections(const Fields& fields, const Source& source, const Header& header) {
   struct Named {
     Section section;

@@ -20,7 +20,7 @@ struct Keys {
 Keys parse_keys(std::span<const std::byte> bytes, std::uint64_t offset);
 
 /// The attributes, `KTXorientation` (`rd`: rows from the top, texels from the left) and `KTXwriter`. Text is
-/// kept as it is, so nothing is escaped. Keys that begin with `KTX` or `ktx` speak of the file that they were
+/// kept as it is, so nothing is escaped. Keys that begin with `KTX` or `ktx` describe the file that they were
 /// read from, and are left out. Throws Error for an empty key, and for a zero byte in a key or value.
 std::vector<std::byte> written_keys(const std::map<std::string, std::string>& attributes);
 

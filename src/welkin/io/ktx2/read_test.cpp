@@ -77,7 +77,7 @@ TEST(Ktx2Read, OtherOrientationsAreTurnedUpright) {
             std::string::npos);
 }
 
-TEST(Ktx2Read, OddTexturesAreReadAndNoted) {
+TEST(Ktx2Read, UnusualTexturesAreReadAndNoted) {
   const auto notes = [](const OtherFile& file) {
     const FileInfo info =
         info_of(file_of(file, Bytes(file.width * std::max(1u, file.height) * file.texel_bytes)));

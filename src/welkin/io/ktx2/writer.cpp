@@ -68,10 +68,10 @@ class Pictures {
     for (const WritePart& part : parts) {
       const auto level = static_cast<std::size_t>(part.level);
       const auto picture = static_cast<std::size_t>(part.layer) * faces + static_cast<std::size_t>(part.face);
-      const WritePart*& place = parts_[level * of_level_ + picture];
-      if (place != nullptr)
+      const WritePart*& slot = parts_[level * of_level_ + picture];
+      if (slot != nullptr)
         throw Error(ErrorKind::bad_request, "two pictures for " + name(header, level, picture));
-      place = &part;
+      slot = &part;
     }
     const auto missing = std::find(parts_.begin(), parts_.end(), nullptr);
     if (missing == parts_.end()) return;
@@ -89,12 +89,12 @@ class Pictures {
     if (header.faces == 6 && header.width != header.height)
       throw Error(ErrorKind::unsupported,
                   "the faces of a cube must be square, not " + size_text(header.width, header.height));
-    const auto most = static_cast<std::size_t>(
+    const auto maximum = static_cast<std::size_t>(
         std::bit_width(static_cast<unsigned>(std::max(header.width, header.height))));
-    if (header.levels.size() > most)
+    if (header.levels.size() > maximum)
       throw Error(ErrorKind::bad_request, std::to_string(header.levels.size()) + " levels, of which " +
                                               size_text(header.width, header.height) + " has at most " +
-                                              std::to_string(most));
+                                              std::to_string(maximum));
     for (std::size_t level = 0; level < header.levels.size(); ++level) {
       const int width = header.width_of(level), height = header.height_of(level);
       for (std::size_t i = 0; i < of_level_; ++i) {
@@ -174,7 +174,7 @@ class Writer {
     return static_cast<std::size_t>(header_.height_of(level)) * pictures_.of_level();
   }
 
-  /// Gives the levels, whose stored sizes are known, their offsets, and writes what stands before them.
+  /// Gives the levels, whose stored sizes are known, their offsets, and writes what precedes them.
   void write_head(ByteSink& file) {
     const std::uint64_t alignment = level_alignment(header_);
     std::uint64_t offset = header_.keys.offset + header_.keys.bytes;

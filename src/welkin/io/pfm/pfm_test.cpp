@@ -52,8 +52,8 @@ TEST(Pfm, ScaleIsAnAttributeAndMultipliesNothing) {
 TEST(Pfm, EveryFloatComesBackBitForBit) {
   for (const int channels : {1, 3}) {
     Image image = noise(37, 23, channels);
-    const float odd[] = {NAN, INFINITY, -INFINITY, -0.0f, 1e-45f, -3e38f};
-    std::copy(odd, odd + 6, image.at(0, 0));
+    const float special[] = {NAN, INFINITY, -INFINITY, -0.0f, 1e-45f, -3e38f};
+    std::copy(special, special + 6, image.at(0, 0));
     WriteReport report;
     const Bytes bytes = encoded("pfm", image, {}, &report);
     EXPECT_EQ(report.not_finite + report.above + report.below, 0u);

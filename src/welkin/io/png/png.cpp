@@ -19,15 +19,15 @@ constexpr unsigned char kSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, 
 constexpr std::uint64_t kBestDeflateRatio = 1032;
 
 /// Text and profiles may claim, or expand to, any size: together they get 1 GiB at most.
-constexpr png_alloc_size_t kMostOfChunk = png_alloc_size_t{8} << 20;
-constexpr png_uint_32 kMostChunksKept = 128;
+constexpr png_alloc_size_t kMaxChunkBytes = png_alloc_size_t{8} << 20;
+constexpr png_uint_32 kMaxChunksKept = 128;
 
 bool matches(std::span<const std::byte> bytes) {
   return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
 }
 
-/// Throws unless whole chunks, as their lengths say, lead to an IEND. libpng would first make room for a
-/// chunk of any length and then miss its bytes.
+/// Throws unless whole chunks, as their lengths say, lead to an IEND. libpng would first allocate memory for
+/// a chunk of any length, and then find its bytes missing.
 void check_chunks(const Source& source) {
   constexpr std::size_t kAround = 12;  // length, name and checksum
   const auto fail = [&](const char* cause, std::size_t at) {
@@ -103,8 +103,8 @@ class Decoder {
   void read_header() {
     png_set_read_fn(png_, this, read_bytes);
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size is the limit
-    png_set_chunk_malloc_max(png_, kMostOfChunk);
-    png_set_chunk_cache_max(png_, kMostChunksKept);
+    png_set_chunk_malloc_max(png_, kMaxChunkBytes);
+    png_set_chunk_cache_max(png_, kMaxChunksKept);
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_ALWAYS, reinterpret_cast<png_const_bytep>("cICP"), 1);
     png_read_info(png_, info_);
   }

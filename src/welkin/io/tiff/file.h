@@ -13,7 +13,7 @@
 
 namespace welkin::io {
 
-/// libtiff's complaints, kept instead of printed: the first error since it was last cleared.
+/// libtiff's errors, kept instead of printed: the first error since it was last cleared.
 struct TiffFailure {
   char text[300] = {};
 
@@ -47,15 +47,16 @@ struct CloseTiff {
 };
 using TiffHandle = std::unique_ptr<TIFF, CloseTiff>;
 
-/// No allocation of libtiff's own passes `most_memory` bytes. Null when libtiff cannot open it; `failure`,
+/// No allocation of libtiff's own passes `max_memory` bytes. Null when libtiff cannot open it; `failure`,
 /// which must outlive the handle, then says why.
-inline TiffHandle open_tiff_stream(const TiffStream& stream, const char* mode, std::uint64_t most_memory,
+inline TiffHandle open_tiff_stream(const TiffStream& stream, const char* mode, std::uint64_t max_memory,
                                    TiffFailure& failure) {
   const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
                                                                              TIFFOpenOptionsFree);
   if (options == nullptr) throw std::bad_alloc();
-  constexpr std::uint64_t kMost = std::numeric_limits<tmsize_t>::max();
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(std::min(most_memory, kMost)));
+  constexpr std::uint64_t kMaxAllocation = std::numeric_limits<tmsize_t>::max();
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(),
+                                      static_cast<tmsize_t>(std::min(max_memory, kMaxAllocation)));
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), TiffFailure::keep, &failure);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), TiffFailure::ignore, nullptr);
   return TiffHandle(TIFFClientOpenExt(

@@ -18,7 +18,7 @@ enum class TiffDecoding {
   rgba      ///< libtiff's own conversion to 8-bit RGBA
 };
 
-/// One directory of a TIFF, understood.
+/// One directory of a TIFF, parsed.
 struct TiffPage {
   PartInfo part;
   TiffDecoding decoding = TiffDecoding::samples;
@@ -33,7 +33,7 @@ struct TiffPage {
   std::vector<std::string> notes;
 };
 
-/// Understands libtiff's current directory and sets what libtiff must convert while decoding (LogLuv, JPEG).
+/// Parses libtiff's current directory and sets what libtiff must convert while decoding (LogLuv, JPEG).
 /// Throws Error naming the file when the directory is of a kind that cannot be read, or implausible for the
 /// file's length.
 TiffPage understand_tiff_page(TIFF* tiff, const Source& source);

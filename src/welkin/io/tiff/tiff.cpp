@@ -73,9 +73,9 @@ class TiffReader : public Reader {
   explicit TiffReader(const Source& source) : source_(source), memory_{source.bytes} {
     tiff_ = open_tiff_stream(memory_.stream(), "r", source.options.max_bytes, failure_);
     if (tiff_ == nullptr) fail("the TIFF header is malformed");
-    constexpr std::size_t kMostPages = 65535;
+    constexpr std::size_t kMaxPages = 65535;
     do {
-      if (pages_.size() == kMostPages) fail("more than " + std::to_string(kMostPages) + " directories");
+      if (pages_.size() == kMaxPages) fail("more than " + std::to_string(kMaxPages) + " directories");
       failure_.clear();
       pages_.push_back(understand_tiff_page(tiff_.get(), source_));
     } while (TIFFLastDirectory(tiff_.get()) == 0 && next_directory());
@@ -129,14 +129,15 @@ class TiffReader : public Reader {
 
   /// Decodes all blocks of a plane, one after the other, into one buffer.
   void read_blocks(const TiffPage& page, int plane, const std::function<void(const Block&)>& use) {
-    const tmsize_t most = page.tiled ? TIFFTileSize(tiff_.get()) : TIFFStripSize(tiff_.get());
+    const tmsize_t maximum = page.tiled ? TIFFTileSize(tiff_.get()) : TIFFStripSize(tiff_.get());
     const tmsize_t row = page.tiled ? TIFFTileRowSize(tiff_.get()) : TIFFScanlineSize(tiff_.get());
     const std::size_t pixel_bytes = stored_pixel_bytes(page);
-    if (most <= 0 || row < static_cast<tmsize_t>(pixel_bytes * static_cast<std::size_t>(page.block_width)) ||
-        row * page.block_height > most) {
+    if (maximum <= 0 ||
+        row < static_cast<tmsize_t>(pixel_bytes * static_cast<std::size_t>(page.block_width)) ||
+        row * page.block_height > maximum) {
       fail("its blocks are malformed");
     }
-    std::vector<std::byte> samples(static_cast<std::size_t>(most));
+    std::vector<std::byte> samples(static_cast<std::size_t>(maximum));
     for (int y = 0; y < page.part.height; y += page.block_height) {
       for (int x = 0; x < page.part.width; x += page.block_width) {
         const Block block{samples.data(),
@@ -176,7 +177,7 @@ class TiffReader : public Reader {
     return page.planar ? value : value * static_cast<std::size_t>(page.stored_samples);
   }
 
-  /// A block's rows to their place, the pixels of each having srgb.size() samples.
+  /// Copies a block's rows into the picture; pixels have srgb.size() samples.
   static void place(const TiffPage& page, const Block& block, std::vector<bool> srgb,
                     std::span<const int> channels, ImageView<float> out) {
     const std::size_t values = static_cast<std::size_t>(block.width) * srgb.size();
@@ -201,7 +202,7 @@ class TiffReader : public Reader {
       float* first = out.at(block.x, block.y + y);
       decoder.decode(row, channels, block.width, first, out.channels);
     };
-    // A thread is worth starting for tens of thousands of values.
+    // Starting a thread pays from tens of thousands of values on.
     constexpr std::size_t kValuesOfTask = 1 << 15;
     const std::size_t grain = kValuesOfTask / values + 1;
     tbb::parallel_for(tbb::blocked_range<int>(0, block.height, grain),

@@ -41,8 +41,8 @@ TEST(Tiff, FloatsComeBackBitForBitInEveryCompression) {
   for (const char* compression : {"", "none", "zip", "lzw"}) {
     for (int channels = 1; channels <= 4; ++channels) {
       Image image = noise(300, 101, channels);
-      const float odd[] = {NAN, INFINITY, -INFINITY, -0.0f, 1e-45f, -3e38f};
-      std::copy(odd, odd + 6, image.at(0, 0));
+      const float special[] = {NAN, INFINITY, -INFINITY, -0.0f, 1e-45f, -3e38f};
+      std::copy(special, special + 6, image.at(0, 0));
       WriteOptions options;
       options.compression = compression;
       WriteReport report;

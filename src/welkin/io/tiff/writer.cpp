@@ -215,13 +215,13 @@ WriteReport write_tiff(ByteSink& file, std::span<const WritePart> parts, const W
   const std::string chosen = compression(options, known, "TIFF");
 
   // Classic TIFF has 32-bit offsets; some room is left for what a codec adds to noise.
-  constexpr std::uint64_t kMostOfClassic = std::uint64_t{15} << 28;
+  constexpr std::uint64_t kMaxClassicBytes = std::uint64_t{15} << 28;
   std::uint64_t bytes = 0;
   for (const WritePart& part : parts) {
     bytes += static_cast<std::uint64_t>(part.image.width) * static_cast<std::uint64_t>(part.image.height) *
              part.channels.size() * size_of(type);
   }
-  Writer writer(file, options, bytes > kMostOfClassic ? "w8" : "w");
+  Writer writer(file, options, bytes > kMaxClassicBytes ? "w8" : "w");
   writer.choose(type, chosen, colour_for(type, options.colour));
   WriteReport report;
   for (std::size_t page = 0; page < parts.size(); ++page) {
