@@ -5,9 +5,11 @@
 
 namespace welkin::cases {
 
+/// A filter, and texels outside the valid ones left with the fill: filling borders changes those at a rim.
 inline ResampleOptions with(Filter filter) {
   ResampleOptions options;
   options.filter = filter;
+  options.borders = false;
   return options;
 }
 

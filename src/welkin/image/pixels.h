@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "welkin/base/export.h"
 #include "welkin/image/image.h"
@@ -29,6 +30,10 @@ struct BasicPixels {
   std::ptrdiff_t texel_bytes = 0;
   /// Bytes from one row to the next, negative for rows stored from the bottom up; 0: nothing between them.
   std::ptrdiff_t row_bytes = 0;
+
+  operator BasicPixels<const std::byte>() const requires(!std::is_const_v<Bytes>) {
+    return {data, width, height, channels, format, texel_bytes, row_bytes};
+  }
 };
 /// Pixels to read from; they must last until the call that takes them returns.
 using Pixels = BasicPixels<const std::byte>;
