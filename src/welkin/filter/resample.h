@@ -24,7 +24,10 @@ struct ResampleOptions {
   /// For directions that the source doesn't show and texels that aren't a position of the target: one value
   /// per channel; 0 where there are fewer.
   std::vector<float> fill = {};
-  bool borders = true;   ///< false: leave the target's borders (fill_borders) to the caller
+  /// false: leave the target's borders (fill_borders) to the caller. Of a disc these are also its texels at
+  /// the rim whose centres lie outside: filled, they serve look-ups there; left, they hold the mean over
+  /// their part inside, which files of discs should have, or the fill.
+  bool borders = true;
   Monitor monitor = {};  ///< progress and cancelling
 };
 

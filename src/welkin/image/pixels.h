@@ -31,6 +31,7 @@ struct BasicPixels {
   /// Bytes from one row to the next, negative for rows stored from the bottom up; 0: nothing between them.
   std::ptrdiff_t row_bytes = 0;
 
+  /// The same pixels, to read from.
   operator BasicPixels<const std::byte>() const requires(!std::is_const_v<Bytes>) {
     return {data, width, height, channels, format, texel_bytes, row_bytes};
   }

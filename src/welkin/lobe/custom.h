@@ -78,7 +78,7 @@ void visit_synonyms(L& lobe, Visitor&& visit) {
 template <class L>
 class ModelOf final : public AnyLobe::Model {
  public:
-  explicit ModelOf(L lobe = {}) : lobe_(std::move(lobe)) {
+  explicit ModelOf(L lobe = L()) : lobe_(std::move(lobe)) {
     weights = &ScalarSums<L>::weights;
     point_sums = &ScalarSums<L>::sums;
   }
@@ -190,7 +190,7 @@ concept Lobe = std::default_initializable<L> && std::copyable<L> &&
 /// The lobe of this struct, copied. Throws Error (bad_request) when its width isn't over 0 and at most π. Its
 /// spec is its name and parameters, which AnyLobe::make doesn't know.
 template <Lobe L>
-AnyLobe make_lobe(L lobe = {}) {
+AnyLobe make_lobe(L lobe = L()) {
   return AnyLobe::from_model(std::make_shared<ModelOf<L>>(std::move(lobe)));
 }
 

@@ -89,7 +89,7 @@ concept HasParameters = requires(P& p) {
 template <class P>
 class ModelOf final : public AnyParameterization::Model {
  public:
-  explicit ModelOf(P p = {}) : p_(std::move(p)) { kernels = &ScalarKernels<P>::table(); }
+  explicit ModelOf(P p = P()) : p_(std::move(p)) { kernels = &ScalarKernels<P>::table(); }
 
   std::string name() const override { return P::kName; }
   const Traits& traits() const override {
@@ -162,7 +162,7 @@ class ModelOf final : public AnyParameterization::Model {
 /// The laws of parameterization.h are not checked: positions, density or coverage that contradict each other
 /// make results wrong, in silence.
 template <Parameterization P>
-AnyParameterization make_parameterization(P p = {}) {
+AnyParameterization make_parameterization(P p = P()) {
   return AnyParameterization::from_model(std::make_shared<ModelOf<P>>(std::move(p)));
 }
 
