@@ -215,14 +215,7 @@ WriteMapOptions WriteFlags::parse() const {
   options.image.compression = compression;
   options.image.quality = quality;
   if (!type.empty()) {
-    std::vector<std::string> names;
-    for (const auto each :
-         {io::PixelType::uint8, io::PixelType::uint16, io::PixelType::uint32, io::PixelType::half,
-          io::PixelType::float32, io::PixelType::rgb9e5, io::PixelType::r11g11b10}) {
-      names.emplace_back(name_of(each));
-      if (names.back() == type) options.image.type = each;
-    }
-    if (!options.image.type) throw UsageError("--type: " + unknown_name("pixel type", type, names));
+    options.image.type = parse_option("--type", [&] { return io::pixel_type_from_name(type); });
   }
   return options;
 }
