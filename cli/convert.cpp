@@ -8,6 +8,7 @@
 #include "progress.h"
 #include "welkin/filter/resample.h"
 #include "welkin/map/adjust.h"
+#include "welkin/map_file/write_resampled.h"
 #include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
@@ -25,6 +26,8 @@ struct Convert {
   int levels_for(const MapFileInfo& info) const;
   /// Of level 0.
   ChartSize size_for(const Map& source, const MapShape& shape) const;
+  Matrix3 orientation_of(const sphere::AnyParameterization& parameterization) const;
+  float factor() const { return static_cast<float>(scale * std::exp2(exposure)); }
   Map converted(const Map& source, const sphere::AnyParameterization& parameterization, ChartSize chart,
                 const ResampleOptions& options) const;
 };
@@ -60,6 +63,7 @@ void Convert::run() const {
   Chain chain;
   chain.notes = levels == 1 ? info.notes.of_level(first) : info.notes;
   ChartSize finest;
+  io::WriteReport report;
   std::uint64_t repaired = 0;
   options.monitor = progress_monitor("convert");
   for (int level = 0; level < levels; ++level) {
@@ -78,12 +82,20 @@ void Convert::run() const {
     if (sanitize) {
       repaired += welkin::sanitize(source);
     }
+    if (levels == 1) {
+      // Made when it is written.
+      report = write_resampled(
+          out, source, *shape, finest,
+          {options, orientation_of(shape->parameterization), factor(), chain.notes, write_options});
+      break;
+    }
     chain.levels.push_back(converted(source, shape->parameterization, chain_size(finest, level), options));
   }
   end_progress();
   if (sanitize)
     print_message(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
-  report_losses(out, write_chain(out, chain, shape->layout, write_options));
+  if (levels > 1) report = write_chain(out, chain, shape->layout, write_options);
+  report_losses(out, report);
 }
 
 int Convert::levels_for(const MapFileInfo& info) const {
@@ -102,15 +114,17 @@ ChartSize Convert::size_for(const Map& source, const MapShape& shape) const {
   return default_chart_size(source, shape.parameterization);
 }
 
+Matrix3 Convert::orientation_of(const sphere::AnyParameterization& parameterization) const {
+  return convention.empty() ? Matrix3{} : orientation_for(convention_from_name(convention), parameterization);
+}
+
 Map Convert::converted(const Map& source, const sphere::AnyParameterization& parameterization,
                        ChartSize chart, const ResampleOptions& options) const {
   Map target(parameterization, chart.width, chart.height, source.channels());
   target.channel_names = source.channel_names;
-  if (!convention.empty())
-    target.orientation = orientation_for(convention_from_name(convention), parameterization);
+  target.orientation = orientation_of(parameterization);
   resample(source, target, options);
-  const double factor = scale * std::exp2(exposure);
-  if (factor != 1) welkin::scale(target, static_cast<float>(factor));
+  if (factor() != 1) welkin::scale(target, factor());
   return target;
 }
 

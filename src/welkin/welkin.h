@@ -35,6 +35,7 @@
 #include "welkin/map_file/layout.h"
 #include "welkin/map_file/map_file.h"
 #include "welkin/map_file/safety_border.h"
+#include "welkin/map_file/write_resampled.h"
 #include "welkin/math/angles.h"
 #include "welkin/math/rotation.h"
 #include "welkin/math/scalar.h"

@@ -51,8 +51,8 @@ double Footprint::narrow() const {
   return larger > 0 ? determinant / larger : 0;
 }
 
-Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_source, int chart, double x,
-                       double y) {
+Footprint footprint_at(const Map& source, const MapFrame& target, const Matrix3& to_source, int chart,
+                       double x, double y) {
   // Tangents on the sphere times a texel's size: differences over half a texel to each side, or less where a
   // texel is so large that its ends meet.
   const auto step = [](const sphere::AnyParameterization& p, int c, double u, double v, double texel_u,
@@ -63,9 +63,9 @@ Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_s
     return (1 / part) * (p.to_sphere(c, u + du, v + dv) - p.to_sphere(c, u - du, v - dv));
   };
   const auto& t = target.parameterization;
-  const double u = x / target.width(), v = y / target.height();
-  const Vec3d right = to_source * step(t, chart, u, v, 1.0 / target.width(), 0);
-  const Vec3d down = to_source * step(t, chart, u, v, 0, 1.0 / target.height());
+  const double u = x / target.size.width, v = y / target.size.height;
+  const Vec3d right = to_source * step(t, chart, u, v, 1.0 / target.size.width, 0);
+  const Vec3d down = to_source * step(t, chart, u, v, 0, 1.0 / target.size.height);
 
   const auto& s = source.parameterization;
   const auto position = s.from_sphere(to_source * t.to_sphere(chart, u, v));
@@ -111,7 +111,7 @@ struct Range {
 
 struct Planner {
   const Map& source;
-  const Map& target;
+  const MapFrame& target;
   const Matrix3& to_source;
   int chart;
   std::vector<FootprintTile>& tiles;
@@ -122,8 +122,8 @@ struct Planner {
   /// for a thin part.
   bool outside(int x, int y, int width, int height) const {
     for (int i = 0; i < 9; ++i) {
-      const double u = (x + 0.5 * (i % 3) * width) / target.width(),
-                   v = (y + 0.5 * (i / 3) * height) / target.height();
+      const double u = (x + 0.5 * (i % 3) * width) / target.size.width,
+                   v = (y + 0.5 * (i / 3) * height) / target.size.height;
       if (target.parameterization.valid(chart, u, v)) return false;
     }
     return true;
@@ -182,11 +182,11 @@ struct Planner {
 
 }  // namespace
 
-void plan_tiles(const Map& source, const Map& target, const Matrix3& to_source, int chart, int first_row,
+void plan_tiles(const Map& source, const MapFrame& target, const Matrix3& to_source, int chart, int first_row,
                 int rows, std::vector<FootprintTile>& tiles) {
   Planner planner{source, target, to_source, chart, tiles};
-  for (int x = 0; x < target.width(); x += kTileSide) {
-    planner.plan(x, first_row, std::min(kTileSide, target.width() - x), rows);
+  for (int x = 0; x < target.size.width; x += kTileSide) {
+    planner.plan(x, first_row, std::min(kTileSide, target.size.width - x), rows);
   }
 }
 

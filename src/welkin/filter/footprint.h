@@ -23,8 +23,8 @@ struct Footprint {
 /// `to_source` takes directions of the target's parameterization to the source's. (x, y) in target texels,
 /// centres at +½. Found from tangent vectors on the sphere, so neither chart edges nor wraps nor folds
 /// disturb it; finite even at poles.
-Footprint footprint_at(const Map& source, const Map& target, const Matrix3& to_source, int chart, double x,
-                       double y);
+Footprint footprint_at(const Map& source, const MapFrame& target, const Matrix3& to_source, int chart,
+                       double x, double y);
 
 /// A rectangle of target texels that is sampled in one manner.
 struct FootprintTile {
@@ -43,7 +43,7 @@ float averaged_fraction(float texels);
 
 /// Tiles of a whole target chart row band: covers `rows` rows from `first_row` of `chart`. Tiles are split
 /// until the footprint hardly changes within one.
-void plan_tiles(const Map& source, const Map& target, const Matrix3& to_source, int chart, int first_row,
+void plan_tiles(const Map& source, const MapFrame& target, const Matrix3& to_source, int chart, int first_row,
                 int rows, std::vector<FootprintTile>& tiles);
 
 /// Height of the bands that plan_tiles is meant for.

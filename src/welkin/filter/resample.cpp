@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
@@ -11,44 +13,45 @@
 namespace welkin {
 namespace {
 
-/// Writes the fill to every texel that is not valid.
-void fill_outside(Map& map, std::vector<float> fill) {
-  fill.resize(static_cast<std::size_t>(map.channels()), 0.0f);
-  parallel_for(map.charts() * map.height(), [&](int i) {
-    const int chart = i / map.height(), y = i % map.height();
-    for (int x = 0; x < map.width(); ++x) {
-      if (!map.parameterization.valid(chart, (x + 0.5) / map.width(), (y + 0.5) / map.height())) {
-        std::copy(fill.begin(), fill.end(), map.level.chart(chart).at(x, y));
+/// The source's own texels.
+class CopyMaker final : public TexelMaker {
+ public:
+  explicit CopyMaker(ResampleJob job) : job_(std::move(job)) {}
+
+  int rows() const override { return 8; }
+
+  void make(const ChartPart& part, ImageView<float> out) const override {
+    copy_walked(job_.source.level.chart(part.chart), part.walk, out);
+    const auto& p = job_.target.parameterization;
+    if (p.full_charts() || p.filled_to_edges()) return;
+    // The fill in every texel that is not valid.
+    const auto [width, height] = job_.target.size;
+    for (int y = 0; y < out.height; ++y) {
+      for (int x = 0; x < out.width; ++x) {
+        const double u = (part.walk.image_x(x, y) + 0.5) / width,
+                     v = (part.walk.image_y(x, y) + 0.5) / height;
+        if (!p.valid(part.chart, u, v)) std::copy(job_.fill.begin(), job_.fill.end(), out.at(x, y));
       }
     }
-  });
-}
+  }
+
+ private:
+  const ResampleJob job_;
+};
 
 }  // namespace
 
-namespace {
-
-void resample_charts(const Map& source, Map& target, const ResampleOptions& options) {
-  const bool same = source.parameterization == target.parameterization && source.width() == target.width() &&
-                    source.height() == target.height() &&
+std::unique_ptr<TexelMaker> make_texels(const Map& source, const MapFrame& target,
+                                        const ResampleOptions& options) {
+  ResampleJob job(source, target, options);
+  const bool same = source.parameterization == target.parameterization &&
+                    source.width() == target.size.width && source.height() == target.size.height &&
                     source.orientation * transpose(options.rotation) == target.orientation;
-  if (same) {
-    for (int chart = 0; chart < source.charts(); ++chart) {
-      copy_pixels(source.level.chart(chart), target.level.chart(chart));
-    }
-    if (!target.parameterization.full_charts() && !target.parameterization.filled_to_edges())
-      fill_outside(target, options.fill);
-    return;
-  }
-  const ResampleJob job(source, target, options);
-  if (options.filter == Filter::automatic) {
-    resample_areas(job);
-  } else {
-    resample_points(job, job.fetch_of(options.filter));
-  }
+  if (same) return std::make_unique<CopyMaker>(std::move(job));
+  if (options.filter == Filter::automatic) return make_by_areas(std::move(job));
+  const Fetch kernel = job.fetch_of(options.filter);
+  return make_by_points(std::move(job), kernel);
 }
-
-}  // namespace
 
 void resample(const Map& source, Map& target, const ResampleOptions& options) {
   source.check();
@@ -57,7 +60,18 @@ void resample(const Map& source, Map& target, const ResampleOptions& options) {
   require(source.channels() == target.channels(),
           "the maps to resample between have other numbers of channels");
   require(is_orthonormal(options.rotation), "a world is turned by a rotation or a reflection");
-  resample_charts(source, target, options);
+  const auto maker = make_texels(source, target, options);
+  const int bands = (target.height() + maker->rows() - 1) / maker->rows();
+  parallel_for(
+      target.charts() * bands,
+      [&](int i) {
+        ChartPart part;
+        part.chart = i / bands;
+        part.walk.start_y = i % bands * maker->rows();
+        const int rows = std::min(maker->rows(), target.height() - part.walk.start_y);
+        maker->make(part, target.level.chart(part.chart).part(0, part.walk.start_y, target.width(), rows));
+      },
+      options.monitor);
   if (options.borders) fill_borders(target);
 }
 

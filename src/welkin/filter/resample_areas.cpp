@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "welkin/base/parallel.h"
@@ -18,72 +19,127 @@ struct Grid {
   std::vector<float> chart, u, v, weight;
 };
 
-class AreaResampler {
- public:
-  explicit AreaResampler(const ResampleJob& job) : job_(job), area_mean_(area_mean(job.source.channels())) {}
+/// A rectangle of a chart's texels that is made.
+struct Canvas {
+  ImageView<float> texels;
+  int x = 0, y = 0;  ///< of its first texel in the chart
 
-  void run() {
+  float* at(int chart_x, int chart_y) const { return texels.at(chart_x - x, chart_y - y); }
+  ImageView<float> part(int chart_x, int chart_y, int width, int height) const {
+    return texels.part(chart_x - x, chart_y - y, width, height);
+  }
+};
+
+/// Some texels of a tile: columns left … right−1 and rows top … bottom−1, counted from the tile's first.
+struct TilePart {
+  const FootprintTile& tile;
+  int left, top, right, bottom;
+
+  TilePart(const FootprintTile& whole, const Canvas& canvas)
+      : tile(whole),
+        left(std::max(0, canvas.x - whole.x)),
+        top(std::max(0, canvas.y - whole.y)),
+        right(std::min(whole.width, canvas.x + canvas.texels.width - whole.x)),
+        bottom(std::min(whole.height, canvas.y + canvas.texels.height - whole.y)) {}
+  bool empty() const { return left >= right || top >= bottom; }
+  int width() const { return right - left; }
+  int height() const { return bottom - top; }
+};
+
+class AreaMaker final : public TexelMaker {
+ public:
+  explicit AreaMaker(ResampleJob whole)
+      : job_(std::move(whole)), area_mean_(area_mean(job_.source.channels())) {
     // Plan: what each tile covers decides how many samples it needs and of which level.
-    Map& target = job_.target;
-    const int bands = (target.height() + kTileSide - 1) / kTileSide;
-    std::vector<std::vector<FootprintTile>> tiles(static_cast<std::size_t>(target.charts() * bands));
-    parallel_for(target.charts() * bands,
-                 [&](int i) {
-                   const int y = i % bands * kTileSide;
-                   plan_tiles(job_.source, target, job_.to_source, i / bands, y,
-                              std::min(kTileSide, target.height() - y), tiles[static_cast<std::size_t>(i)]);
-                 },
-                 {nullptr, job_.options.monitor.cancelled});
+    const MapFrame& target = job_.target;
+    bands_ = (target.size.height + kTileSide - 1) / kTileSide;
+    const int charts = target.parameterization.charts();
+    tiles_.resize(static_cast<std::size_t>(charts * bands_));
+    parallel_for(
+        charts * bands_,
+        [&](int i) {
+          const int y = i % bands_ * kTileSide;
+          plan_tiles(job_.source, target, job_.to_source, i / bands_, y,
+                     std::min(kTileSide, target.size.height - y), tiles_[static_cast<std::size_t>(i)]);
+        },
+        without_progress(job_.options.monitor));
     int coarsest = 0;
-    for (const auto& band : tiles) {
+    for (const auto& band : tiles_) {
       for (const auto& tile : band) coarsest = std::max(coarsest, tile.level);
     }
-    const std::vector<Level> pyramid = make_pyramid(job_.source, coarsest);
+    pyramid_ = make_pyramid(job_.source, coarsest);
     levels_ = {view_of(job_.source.level)};
-    for (const Level& level : pyramid) levels_.push_back(view_of(level));
+    for (const Level& level : pyramid_) levels_.push_back(view_of(level));
+  }
 
-    parallel_for(
-        static_cast<int>(tiles.size()),
-        [&](int i) {
-          Batch batch(job_);
-          for (const FootprintTile& tile : tiles[static_cast<std::size_t>(i)]) fill(tile, batch);
-        },
-        job_.options.monitor);
+  int rows() const override { return kTileSide; }
+
+  void make(const ChartPart& part, ImageView<float> out) const override {
+    // Tiles are the chart's, so they are made as it lies.
+    if (part.walk.as_it_is()) return make(part.chart, {out, part.walk.start_x, part.walk.start_y});
+    const auto [x, y, width, height] = texels_of(part.walk, out.width, out.height);
+    Image image(width, height, out.channels, PixelContents::unset);
+    make(part.chart, {image.view(), x, y});
+    TexelWalk walk = part.walk;
+    walk.start_x -= x;
+    walk.start_y -= y;
+    copy_walked(image.view(), walk, out);
   }
 
  private:
-  void fill(const FootprintTile& tile, Batch& batch) const {
+  void make(int chart, const Canvas& canvas) const {
+    Batch batch(job_);
+    for (int y = canvas.y / kTileSide * kTileSide; y < canvas.y + canvas.texels.height; y += kTileSide) {
+      for (const FootprintTile& tile : tiles_[static_cast<std::size_t>(chart * bands_ + y / kTileSide)]) {
+        if (const TilePart part(tile, canvas); !part.empty()) fill(part, canvas, batch);
+      }
+    }
+  }
+
+  void fill(const TilePart& part, const Canvas& canvas, Batch& batch) const {
+    const FootprintTile& tile = part.tile;
     const int per_texel = tile.samples_right * tile.samples_down;
     if (per_texel == 1) {
-      const int rows = std::max(1, kBatch / tile.width);
-      for (int y = 0; y < tile.height; y += rows) {
-        resample_rectangle(job_, job_.fetch_of(Filter::automatic), tile.chart, tile.x, tile.y + y, tile.width,
-                           std::min(rows, tile.height - y), batch);
-      }
+      const int rows = std::max(1, kBatch / part.width());
+      for (int y = part.top; y < part.bottom; y += rows)
+        look_up(tile, part.left, y, part.width(), std::min(rows, part.bottom - y), canvas, batch);
       return;
     }
     // The texels of a small target are too large to be flat in the source, though they may look so at their
     // corners.
     constexpr int kSmall = 16;
-    if (tile.whole && job_.target.width() > kSmall && job_.target.height() > kSmall)
-      return fill_by_areas(tile, batch);
-    for (int y = 0; y < tile.height; ++y) {
-      for (int x = 0; x < tile.width;) x += average(tile, x, y, tile.width, per_texel, batch);
+    if (tile.whole && job_.target.size.width > kSmall && job_.target.size.height > kSmall)
+      return fill_by_areas(part, canvas, batch);
+    for (int y = part.top; y < part.bottom; ++y) {
+      for (int x = part.left; x < part.right;)
+        x += average(tile, x, y, part.right - x, per_texel, canvas, batch);
     }
   }
 
-  void locate_grid(const FootprintTile& tile, int columns, int rows, float offset, Batch& batch,
+  /// Texels of a tile by one look-up each.
+  void look_up(const FootprintTile& tile, int x, int y, int width, int height, const Canvas& canvas,
+               Batch& batch) const {
+    TexelWalk walk;
+    walk.start_x = tile.x + x;
+    walk.start_y = tile.y + y;
+    resample_rectangle(job_, job_.fetch_of(Filter::automatic), {tile.chart, walk},
+                       canvas.part(tile.x + x, tile.y + y, width, height), batch);
+  }
+
+  /// The points of columns × rows at such an offset from the first texel of a part.
+  void locate_grid(const TilePart& part, int columns, int rows, float offset, Batch& batch,
                    Grid& grid) const {
+    const FootprintTile& tile = part.tile;
     const std::size_t points = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     for (auto* list : {&grid.chart, &grid.u, &grid.v, &grid.weight}) list->resize(points);
-    const float across = 1.0f / static_cast<float>(job_.target.width());
-    const float down = 1.0f / static_cast<float>(job_.target.height());
+    const float across = 1.0f / static_cast<float>(job_.target.size.width);
+    const float down = 1.0f / static_cast<float>(job_.target.size.height);
     for (std::size_t from = 0; from < points; from += kBatch) {
       const std::size_t count = std::min<std::size_t>(kBatch, points - from);
       for (std::size_t i = 0; i < count; ++i) {
         const int k = static_cast<int>(from + i);
-        batch.u[i] = (static_cast<float>(tile.x + k % columns) + offset) * across;
-        batch.v[i] = (static_cast<float>(tile.y + k / columns) + offset) * down;
+        batch.u[i] = (static_cast<float>(tile.x + part.left + k % columns) + offset) * across;
+        batch.v[i] = (static_cast<float>(tile.y + part.top + k / columns) + offset) * down;
       }
       batch.locate(tile.chart, count);
       batch.weigh(tile.chart, count);
@@ -100,25 +156,26 @@ class AreaResampler {
 
   /// Texels whose area is a parallelogram in one source chart are averaged texel by texel; the few others
   /// (poles, chart edges, folds, rims) from samples whose positions are computed one by one.
-  void fill_by_areas(const FootprintTile& tile, Batch& batch) const {
+  void fill_by_areas(const TilePart& part, const Canvas& canvas, Batch& batch) const {
+    const FootprintTile& tile = part.tile;
+    const int width = part.width(), height = part.height();
     Grid corners, centres;
-    locate_grid(tile, tile.width + 1, tile.height + 1, 0.0f, batch, corners);
-    locate_grid(tile, tile.width, tile.height, 0.5f, batch, centres);
+    locate_grid(part, width + 1, height + 1, 0.0f, batch, corners);
+    locate_grid(part, width, height, 0.5f, batch, centres);
     const LevelView& level = levels_[std::min(static_cast<std::size_t>(tile.level), levels_.size() - 1)];
     const int per_texel = tile.samples_right * tile.samples_down;
-    const ImageView<float> out = job_.target.level.chart(tile.chart);
     std::vector<float> mean(job_.channels() + 8);
     Parallelogram area;
-    for (int y = 0; y < tile.height; ++y) {
-      for (int x = 0; x < tile.width; ++x) {
-        const std::size_t corner = static_cast<std::size_t>(y * (tile.width + 1) + x);
-        const std::size_t centre = static_cast<std::size_t>(y * tile.width + x);
-        if (parallelogram(level, corners, corner, static_cast<std::size_t>(tile.width + 1), centres, centre,
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const std::size_t corner = static_cast<std::size_t>(y * (width + 1) + x);
+        const std::size_t centre = static_cast<std::size_t>(y * width + x);
+        if (parallelogram(level, corners, corner, static_cast<std::size_t>(width + 1), centres, centre,
                           area)) {
           area_mean_(level, &area, mean.data(), 1);
-          std::copy_n(mean.data(), job_.channels(), out.at(tile.x + x, tile.y + y));
+          std::copy_n(mean.data(), job_.channels(), canvas.at(tile.x + part.left + x, tile.y + part.top + y));
         } else {
-          average(tile, x, y, 1, per_texel, batch);
+          average(tile, part.left + x, part.top + y, 1, per_texel, canvas, batch);
         }
       }
     }
@@ -173,8 +230,9 @@ class AreaResampler {
 
   /// Means of the next texels of a tile's row, at most `limit` and as many as fit into a batch; returns how
   /// many.
-  int average(const FootprintTile& tile, int x0, int y0, int limit, int per_texel, Batch& batch) const {
-    const int texels = std::clamp(kBatch / per_texel, 1, std::min(limit, tile.width - x0));
+  int average(const FootprintTile& tile, int x0, int y0, int limit, int per_texel, const Canvas& canvas,
+              Batch& batch) const {
+    const int texels = std::clamp(kBatch / per_texel, 1, limit);
     // The more samples a mean has, the less their interpolation matters.
     const Fetch kernel = per_texel >= 9  ? job_.kernels.bilinear
                          : per_texel > 4 ? job_.fetch_of(Filter::bicubic)
@@ -198,14 +256,11 @@ class AreaResampler {
         if (from + each == per_texel && sum.empty() && job_.target.parameterization.filled_to_edges()) {
           beyond.push_back(x0 + texel);
         } else if (from + each == per_texel) {
-          sum.mean(job_.target.level.chart(tile.chart).at(tile.x + x0 + texel, tile.y + y0));
+          sum.mean(canvas.at(tile.x + x0 + texel, tile.y + y0));
         }
       }
     }
-    for (const int x : beyond) {
-      resample_rectangle(job_, job_.fetch_of(Filter::automatic), tile.chart, tile.x + x, tile.y + y0, 1, 1,
-                         batch);
-    }
+    for (const int x : beyond) look_up(tile, x, y0, 1, 1, canvas, batch);
     return texels;
   }
 
@@ -220,8 +275,8 @@ class AreaResampler {
       const float bottom = corners[2] + fx * (corners[3] - corners[2]);
       return top + fy * (bottom - top);
     };
-    const float across = 1.0f / static_cast<float>(job_.target.width()),
-                down = 1.0f / static_cast<float>(job_.target.height());
+    const float across = 1.0f / static_cast<float>(job_.target.size.width),
+                down = 1.0f / static_cast<float>(job_.target.size.height);
     const float step_x = averaged_fraction(mix(tile.texels_right)) / static_cast<float>(tile.samples_right);
     const float step_y = averaged_fraction(mix(tile.texels_down)) / static_cast<float>(tile.samples_down);
     const float centre_x = static_cast<float>(tile.x + x) + 0.5f,
@@ -288,15 +343,18 @@ class AreaResampler {
     double total_ = 0;
   };
 
-  const ResampleJob& job_;
+  const ResampleJob job_;
   const AreaMean area_mean_;
+  int bands_ = 0;                                  ///< of a chart
+  std::vector<std::vector<FootprintTile>> tiles_;  ///< of each band of each chart
+  std::vector<Level> pyramid_;
   std::vector<LevelView> levels_;
 };
 
 }  // namespace
 
-void resample_areas(const ResampleJob& job) {
-  AreaResampler(job).run();
+std::unique_ptr<TexelMaker> make_by_areas(ResampleJob job) {
+  return std::make_unique<AreaMaker>(std::move(job));
 }
 
 }  // namespace welkin

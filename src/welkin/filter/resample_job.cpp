@@ -1,11 +1,12 @@
 #include "welkin/filter/resample_job.h"
-#include "welkin/base/error.h"
 
 #include <algorithm>
 
+#include "welkin/base/error.h"
+
 namespace welkin {
 
-ResampleJob::ResampleJob(const Map& from, Map& to, const ResampleOptions& how)
+ResampleJob::ResampleJob(const Map& from, const MapFrame& to, const ResampleOptions& how)
     : source(from),
       target(to),
       options(how),
@@ -15,7 +16,6 @@ ResampleJob::ResampleJob(const Map& from, Map& to, const ResampleOptions& how)
       source_is_whole(from.parameterization.whole_world()),
       kernels(fetch_kernels(from.channels())),
       fill(how.fill) {
-  require(from.channels() == to.channels(), "the maps to resample between have other numbers of channels");
   fill.resize(static_cast<std::size_t>(from.channels()), 0.0f);
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "welkin/filter/fetch.h"
-#include "welkin/filter/resample.h"
+#include "welkin/filter/texel_maker.h"
 
 /// What the ways to fill a map share. Internal to resample.
 namespace welkin {
@@ -12,11 +13,11 @@ namespace welkin {
 inline constexpr int kBatch = 256;
 
 struct ResampleJob {
-  ResampleJob(const Map& source, Map& target, const ResampleOptions& options);
+  ResampleJob(const Map& source, const MapFrame& target, const ResampleOptions& options);
 
   const Map& source;
-  Map& target;
-  const ResampleOptions& options;
+  MapFrame target;
+  ResampleOptions options;
   Matrix3 to_source;  ///< directions of the target's parameterization to the source's
   bool turned;        ///< to_source is not the identity
   bool target_is_full;
@@ -62,14 +63,14 @@ class Batch {
   std::vector<float> pixels_;
 };
 
-/// Looks up the centres of a rectangle of at most kBatch target texels.
-void resample_rectangle(const ResampleJob& job, Fetch kernel, int chart, int x, int y, int width, int height,
+/// Looks up the centres of texels; `out` has at most kBatch of them.
+void resample_rectangle(const ResampleJob& job, Fetch kernel, const ChartPart& part, ImageView<float> out,
                         Batch& batch);
 
-/// The whole target by one look-up per texel.
-void resample_points(const ResampleJob& job, Fetch kernel);
+/// Texels by one look-up for each.
+std::unique_ptr<TexelMaker> make_by_points(ResampleJob job, Fetch kernel);
 
-/// The whole target by Filter::automatic.
-void resample_areas(const ResampleJob& job);
+/// Texels by Filter::automatic.
+std::unique_ptr<TexelMaker> make_by_areas(ResampleJob job);
 
 }  // namespace welkin

@@ -1,23 +1,29 @@
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
-#include "welkin/base/parallel.h"
 #include "welkin/filter/resample_job.h"
 
 namespace welkin {
 
 namespace {
 
-/// Positions of the centres of a rectangle of target texels, row by row, and where they lie in the source.
-void locate_centres(const ResampleJob& job, int chart, int x0, int y0, int width, int height, Batch& batch) {
-  const float across = 1.0f / static_cast<float>(job.target.width());
-  const float down = 1.0f / static_cast<float>(job.target.height());
-  for (int x = 0; x < width; ++x) batch.u[x] = (static_cast<float>(x0 + x) + 0.5f) * across;
+/// Positions of the centres of texels, row by row of the picture, and where they lie in the source.
+void locate_centres(const ResampleJob& job, const ChartPart& part, int width, int height, Batch& batch) {
+  const float across = 1.0f / static_cast<float>(job.target.size.width);
+  const float down = 1.0f / static_cast<float>(job.target.size.height);
+  const auto u = [&](int x, int y) { return (static_cast<float>(part.walk.image_x(x, y)) + 0.5f) * across; };
+  const auto v = [&](int x, int y) { return (static_cast<float>(part.walk.image_y(x, y)) + 0.5f) * down; };
+  // Along a row of the picture either u or v stays the same; the other is the same in each row.
+  const bool on_its_side = part.walk.on_its_side();
+  float* const along = on_its_side ? batch.v : batch.u;
+  float* const still = on_its_side ? batch.u : batch.v;
+  for (int x = 0; x < width; ++x) along[x] = on_its_side ? v(x, 0) : u(x, 0);
   for (int y = 0; y < height; ++y) {
-    if (y > 0) std::copy_n(batch.u, width, batch.u + y * width);
-    std::fill_n(batch.v + y * width, width, (static_cast<float>(y0 + y) + 0.5f) * down);
+    if (y > 0) std::copy_n(along, width, along + y * width);
+    std::fill_n(still + y * width, width, on_its_side ? u(0, y) : v(0, y));
   }
-  batch.locate(chart, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  batch.locate(part.chart, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 
 void copy_rows(const float* texels, ImageView<float> out) {
@@ -25,46 +31,62 @@ void copy_rows(const float* texels, ImageView<float> out) {
   for (int y = 0; y < out.height; ++y, texels += row) std::memcpy(out.row(y), texels, row * sizeof(float));
 }
 
+class PointMaker final : public TexelMaker {
+ public:
+  PointMaker(ResampleJob job, Fetch kernel) : job_(std::move(job)), kernel_(kernel) {}
+
+  int rows() const override { return kRows; }
+
+  void make(const ChartPart& part, ImageView<float> out) const override {
+    Batch batch(job_);
+    for (int y = 0; y < out.height; y += kRows) {
+      const int rows = std::min(kRows, out.height - y);
+      make_band(part.from(0, y), out.part(0, y, out.width, rows), batch);
+    }
+  }
+
+ private:
+  /// Tiles of 32 × 8 texels: what they read lies together along and across.
+  static constexpr int kRows = 8;
+  static constexpr int kMaxOverrun = 8;  ///< values that a kernel writes past its last one
+
+  void make_band(const ChartPart& part, ImageView<float> out, Batch& batch) const {
+    const LevelView source = view_of(job_.source.level);
+    constexpr int kLanes = static_cast<int>(sphere::kLanes);
+    const int most = kBatch / out.height / kLanes * kLanes;
+    for (int x = 0; x < out.width; x += most) {
+      const int columns = std::min(most, out.width - x);
+      const ImageView<float> tile = out.part(x, 0, columns, out.height);
+      const bool room_after = (out.width - x - columns) * out.channels >= kMaxOverrun;
+      if (!room_after || job_.fills()) {
+        resample_rectangle(job_, kernel_, part.from(x, 0), tile, batch);
+        continue;
+      }
+      // Straight into the picture. What a kernel writes past the end of a row is the next tile's.
+      locate_centres(job_, part.from(x, 0), columns, out.height, batch);
+      for (int row = 0; row < out.height; ++row) {
+        const int at = row * columns;
+        kernel_(source, batch.chart + at, batch.source_u + at, batch.source_v + at, tile.row(row),
+                static_cast<std::size_t>(columns));
+      }
+    }
+  }
+
+  const ResampleJob job_;
+  const Fetch kernel_;
+};
+
 }  // namespace
 
-void resample_rectangle(const ResampleJob& job, Fetch kernel, int chart, int x0, int y0, int width,
-                        int height, Batch& batch) {
-  locate_centres(job, chart, x0, y0, width, height, batch);
-  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  copy_rows(batch.fetch_texels(kernel, view_of(job.source.level), chart, count),
-            job.target.level.chart(chart).part(x0, y0, width, height));
+void resample_rectangle(const ResampleJob& job, Fetch kernel, const ChartPart& part, ImageView<float> out,
+                        Batch& batch) {
+  locate_centres(job, part, out.width, out.height, batch);
+  const std::size_t count = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
+  copy_rows(batch.fetch_texels(kernel, view_of(job.source.level), part.chart, count), out);
 }
 
-void resample_points(const ResampleJob& job, Fetch kernel) {
-  // Tiles of 32 × 8 texels: what they read lies together along and across.
-  constexpr int kRows = 8, kColumns = kBatch / kRows;
-  static_assert(kColumns % sphere::kLanes == 0);
-  const LevelView source = view_of(job.source.level);
-  const int width = job.target.width(), height = job.target.height();
-  const int bands = (height + kRows - 1) / kRows;
-  parallel_for(
-      job.target.charts() * bands,
-      [&](int i) {
-        const int chart = i / bands, y = i % bands * kRows, rows = std::min(kRows, height - y);
-        Batch batch(job);
-        for (int x = 0; x < width; x += kColumns) {
-          const int columns = std::min(kColumns, width - x);
-          if (columns < kColumns || job.fills()) {
-            resample_rectangle(job, kernel, chart, x, y, columns, rows, batch);
-            continue;
-          }
-          // Straight into the target. What a kernel writes past the end of a row is the next tile's, or
-          // border.
-          locate_centres(job, chart, x, y, columns, rows, batch);
-          const ImageView<float> out = job.target.level.chart(chart).part(x, y, columns, rows);
-          for (int row = 0; row < rows; ++row) {
-            const int at = row * kColumns;
-            kernel(source, batch.chart + at, batch.source_u + at, batch.source_v + at, out.row(row),
-                   kColumns);
-          }
-        }
-      },
-      job.options.monitor);
+std::unique_ptr<TexelMaker> make_by_points(ResampleJob job, Fetch kernel) {
+  return std::make_unique<PointMaker>(std::move(job), kernel);
 }
 
 }  // namespace welkin

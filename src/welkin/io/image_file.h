@@ -116,6 +116,7 @@ struct WritePart {
   /// `draw(y, rows)` fills all texels of `rows`, which are those of the picture from row y on. Called for
   /// rows in any order, again for some, and from several threads at once.
   std::function<void(int y, ImageView<float> rows)> draw = nullptr;
+  int rows_at_once = 1;  ///< `draw` is fastest for so many rows, from a multiple of them on; a hint
 };
 
 /// How a file is written.

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cassert>
 
 namespace welkin::io {
@@ -34,9 +35,15 @@ ImageView<const float> draw_rows(const WritePart& part, int y, int count, Image&
   assert(y >= 0 && count > 0 && y + count <= part.image.height);
   if (!part.draw) return rows_in_memory(part, y, count);
   const ImageView<float> band = band_of(part, count, memory);
-  tbb::parallel_for(tbb::blocked_range<int>(0, count, 32), [&](const tbb::blocked_range<int>& range) {
-    part.draw(y + range.begin(), band.part(0, range.begin(), band.width, range.end() - range.begin()));
-  });
+  // Pieces that begin where `draw` likes them to; the first may be shorter.
+  const int rows = part.rows_at_once > 1 ? part.rows_at_once : 32, before = y / rows * rows;
+  tbb::parallel_for(tbb::blocked_range<int>(before / rows, (y + count - 1) / rows + 1, 1),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int i = range.begin(); i < range.end(); ++i) {
+                        const int first = std::max(y, i * rows), end = std::min(y + count, (i + 1) * rows);
+                        part.draw(first, band.part(0, first - y, band.width, end - first));
+                      }
+                    });
   return band;
 }
 

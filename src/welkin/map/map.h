@@ -102,6 +102,20 @@ struct ChartSize {
   int height = 0;  ///< rows
 };
 
+/// What a map is besides its pixels.
+struct WELKIN_API MapFrame {
+  sphere::AnyParameterization parameterization;  ///< that of charts of this size
+  ChartSize size;
+  Matrix3 orientation;
+
+  MapFrame(const sphere::AnyParameterization& which, ChartSize charts, const Matrix3& world = {})
+      : parameterization(which.at_size(charts.width, charts.height)), size(charts), orientation(world) {}
+  MapFrame(const Map& map)
+      : parameterization(map.parameterization),
+        size{map.width(), map.height()},
+        orientation(map.orientation) {}
+};
+
 /// Names for the channels of an image that has `count` of them: R G B, R G B A, Y, Y A, else C0 C1….
 WELKIN_API std::vector<std::string> default_channel_names(int count);
 

@@ -69,8 +69,7 @@ io::WriteReport write_to(const Destination& destination, const Chain& chain, con
                          const WriteMapOptions& options) {
   check_chain_members(chain);
   const Map& finest = chain.levels.front();
-  std::vector<const Map*> maps;
-  for (const Map& map : chain.levels) maps.push_back(&map);
+  const std::vector<WrittenLevel> maps(chain.levels.begin(), chain.levels.end());
   check_levels(destination, {finest.parameterization, layout}, {finest.width(), finest.height()},
                static_cast<int>(maps.size()), options);
   WriteMapOptions with_notes = options;

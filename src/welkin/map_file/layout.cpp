@@ -1,8 +1,10 @@
 #include "welkin/map_file/layout.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "welkin/base/error.h"
+#include "welkin/map_file/cell_walk.h"
 
 namespace welkin {
 namespace {
@@ -124,65 +126,6 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
-/// Where the texel (x, y) of a cell's picture lies in its chart.
-struct CellMapping {
-  std::ptrdiff_t start = 0, step_x = 0,
-                 step_y = 0;  // values of the chart's view: first texel, and steps of the picture
-
-  CellMapping(const LayoutCell& c, int width, int height, std::ptrdiff_t row, std::ptrdiff_t texel) {
-    // A picture turned clockwise by one quarter shows at (x, y) what was at (y, h − 1 − x).
-    const std::ptrdiff_t right = width - 1, bottom = height - 1;
-    std::ptrdiff_t x = 0, y = 0, xx = 0, xy = 0, yx = 0, yy = 0;  // chart x = x + xx·px + xy·py
-    switch (c.quarter_turns & 3) {
-      case 0:
-        xx = 1, yy = 1;
-        break;
-      case 1:
-        xy = 1, yx = -1, y = bottom;
-        break;
-      case 2:
-        xx = -1, yy = -1, x = right, y = bottom;
-        break;
-      default:
-        xy = -1, yx = 1, x = right;
-        break;
-    }
-    if (c.mirrored) {
-      x = right - x;
-      xx = -xx;
-      xy = -xy;
-    }
-    start = x * texel + y * row;
-    step_x = xx * texel + yx * row;
-    step_y = xy * texel + yy * row;
-  }
-};
-
-/// Copies `count` texels, each `from_step` values after the one before, to every `to_step`-th value.
-template <int kChannels>
-void copy_texels(const float* from, std::ptrdiff_t from_step, float* to, std::ptrdiff_t to_step, int count) {
-  for (int x = 0; x < count; ++x, from += from_step, to += to_step) std::copy_n(from, kChannels, to);
-}
-
-void copy_texels(const float* from, std::ptrdiff_t from_step, float* to, std::ptrdiff_t to_step, int count,
-                 int channels) {
-  if (from_step == channels && to_step == channels) {
-    std::copy_n(from, static_cast<std::ptrdiff_t>(count) * channels, to);
-  } else if (channels == 1) {
-    copy_texels<1>(from, from_step, to, to_step, count);
-  } else if (channels == 3) {
-    copy_texels<3>(from, from_step, to, to_step, count);
-  } else if (channels == 4) {
-    copy_texels<4>(from, from_step, to, to_step, count);
-  } else {
-    for (int x = 0; x < count; ++x, from += from_step, to += to_step) std::copy_n(from, channels, to);
-  }
-}
-
-}  // namespace
-
-namespace {
-
 /// Puts the layout of that name first.
 std::vector<Layout> with_default(std::vector<Layout> list, std::string_view name) {
   std::stable_partition(list.begin(), list.end(), [&](const Layout& layout) { return layout.name == name; });
@@ -303,6 +246,31 @@ void check_turns(const Layout& layout, ChartSize size) {
   }
 }
 
+TexelWalk walk_of(const LayoutCell& cell, ChartSize chart) {
+  const int right = chart.width - 1, bottom = chart.height - 1;
+  // A picture turned clockwise by one quarter shows at (x, y) what was at (y, h − 1 − x).
+  TexelWalk walk;
+  switch (cell.quarter_turns & 3) {
+    case 0:
+      break;
+    case 1:
+      walk = {0, bottom, 0, -1, 1, 0};
+      break;
+    case 2:
+      walk = {right, bottom, -1, 0, 0, -1};
+      break;
+    default:
+      walk = {right, 0, 0, 1, -1, 0};
+      break;
+  }
+  if (cell.mirrored) {
+    walk.start_x = right - walk.start_x;
+    walk.right_x = -walk.right_x;
+    walk.down_x = -walk.down_x;
+  }
+  return walk;
+}
+
 namespace {
 
 void check_cell(const LayoutCell& cell, ChartSize picture, ChartSize chart) {
@@ -320,11 +288,7 @@ void check_channels(int a, int b) {
 void copy_from_cell(const LayoutCell& cell, ImageView<const float> picture, ImageView<float> chart) {
   check_cell(cell, {picture.width, picture.height}, {chart.width, chart.height});
   check_channels(chart.channels, picture.channels);
-  const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
-  for (int y = 0; y < picture.height; ++y) {
-    copy_texels(picture.row(y), picture.channels, chart.data + map.start + y * map.step_y, map.step_x,
-                picture.width, picture.channels);
-  }
+  copy_unwalked(picture, walk_of(cell, {chart.width, chart.height}), chart);
 }
 
 void copy_to_cell(const LayoutCell& cell, ImageView<const float> chart, ImageView<float> picture) {
@@ -340,22 +304,15 @@ void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int
               first + rows.height <= (on_its_side ? chart.width : chart.height),
           "a chart and the rows of its picture have other sizes");
   check_channels(chart.channels, rows.channels);
-  const CellMapping map(cell, chart.width, chart.height, chart.row_stride, chart.channels);
-  for (int y = 0; y < rows.height; ++y) {
-    copy_texels(chart.data + map.start + (first + y) * map.step_y, map.step_x, rows.row(y), rows.channels,
-                rows.width, rows.channels);
-  }
+  copy_walked(chart, walk_of(cell, {chart.width, chart.height}).from(0, first), rows);
 }
 
-void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
+void draw_rows(const Layout& layout, ChartSize size, const DrawCell& draw_cell, int first,
                ImageView<float> rows) {
   // All cells are of one size, so those on their side are square.
-  require(charts.size() == layout.cells.size() && !charts.empty(),
-          "a layout is drawn of one picture for each chart");
-  const int width = charts.front().width, height = charts.front().height;
-  require(rows.width == layout.columns * width && first >= 0 && first + rows.height <= layout.rows * height &&
-              rows.channels == charts.front().channels,
-          "the rows to draw lie outside the layout's picture, or have another number of channels");
+  const auto [width, height] = size;
+  require(rows.width == layout.columns * width && first >= 0 && first + rows.height <= layout.rows * height,
+          "the rows to draw lie outside the layout's picture");
   for (int y = 0; y < rows.height;) {
     const int row = (first + y) / height, inside = (first + y) % height;
     const int count = std::min(height - inside, rows.height - y);
@@ -363,8 +320,7 @@ void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& 
     for (const LayoutCell& cell : layout.cells) {
       if (cell.row != row) continue;
       filled[static_cast<std::size_t>(cell.column)] = true;
-      copy_to_cell_rows(cell, charts[static_cast<std::size_t>(cell.chart)], inside,
-                        rows.part(cell.column * width, y, width, count));
+      draw_cell(cell, inside, rows.part(cell.column * width, y, width, count));
     }
     for (int column = 0; column < layout.columns; ++column) {
       if (filled[static_cast<std::size_t>(column)]) continue;
@@ -373,6 +329,19 @@ void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& 
     }
     y += count;
   }
+}
+
+void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
+               ImageView<float> rows) {
+  require(charts.size() == layout.cells.size() && !charts.empty() &&
+              charts.front().channels == rows.channels,
+          "a layout is drawn of one picture for each chart, of as many channels as the rows");
+  draw_rows(
+      layout, {charts.front().width, charts.front().height},
+      [&](const LayoutCell& cell, int y, ImageView<float> part) {
+        copy_to_cell_rows(cell, charts[static_cast<std::size_t>(cell.chart)], y, part);
+      },
+      first, rows);
 }
 
 }  // namespace welkin

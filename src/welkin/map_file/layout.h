@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -95,9 +96,15 @@ WELKIN_API void copy_to_cell(const LayoutCell& cell, ImageView<const float> char
 WELKIN_API void copy_to_cell_rows(const LayoutCell& cell, ImageView<const float> chart, int first,
                                   ImageView<float> rows);
 
-/// Rows of a layout's picture, from row `first` on: all cells, each with the chart of its number in `charts`,
-/// and black where there is none. There is a chart for every cell, all of one size, and `rows` is as wide as
-/// the picture and ends inside it.
+/// Fills rows of a cell's picture, those from row y of the cell on.
+using DrawCell = std::function<void(const LayoutCell& cell, int y, ImageView<float> rows)>;
+
+/// Rows of a layout's picture, from row `first` on: all cells, of charts of that size, and black where there
+/// is none. `rows` is as wide as the picture and ends inside it.
+WELKIN_API void draw_rows(const Layout& layout, ChartSize size, const DrawCell& draw_cell, int first,
+                          ImageView<float> rows);
+/// The same with the chart of its number in `charts` for each cell. There is a chart for every cell, all of
+/// one size.
 WELKIN_API void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
                           ImageView<float> rows);
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "welkin/base/number_text.h"
@@ -81,8 +82,26 @@ std::size_t first_picture(const Layout& layout, const ReadMapOptions& options);
 MapFileInfo inspect(const std::filesystem::path& path, const io::FileInfo& file,
                     const ReadMapOptions& options);
 
+/// A level to be written: a map in memory, or one whose texels are made when they are written.
+struct WrittenLevel {
+  MapFrame frame;
+  std::vector<std::string> channel_names;
+  const Map* map = nullptr;  ///< null: `draw` makes the texels; there is no safety border then
+  DrawCell draw = nullptr;   ///< from several threads at once
+  int rows_at_once = 1;      ///< WritePart
+
+  WrittenLevel(const Map& whole) : frame(whole), channel_names(whole.channel_names), map(&whole) {
+    whole.check();
+  }
+  WrittenLevel(MapFrame drawn, std::vector<std::string> names, DrawCell draw_cell, int at_once)
+      : frame(std::move(drawn)),
+        channel_names(std::move(names)),
+        draw(std::move(draw_cell)),
+        rows_at_once(at_once) {}
+};
+
 /// Writes maps as the levels of one file, as check_chain lets them be.
-io::WriteReport write_levels(const Destination& destination, std::span<const Map* const> levels,
+io::WriteReport write_levels(const Destination& destination, std::span<const WrittenLevel> levels,
                              const Layout& layout, const WriteMapOptions& options);
 
 }  // namespace welkin::map_file

@@ -17,12 +17,12 @@ using namespace map_file;
 namespace {
 
 /// The map's metadata.
-io::WriteOptions declared(const io::Capabilities& format, const Map& map, const Layout& layout,
+io::WriteOptions declared(const io::Capabilities& format, const WrittenLevel& map, const Layout& layout,
                           const WriteMapOptions& options) {
-  const auto& p = map.parameterization;
+  const auto& p = map.frame.parameterization;
   io::WriteOptions image = options.image;
   image.attributes[kShapeKey] = MapShape{p, layout}.text();
-  image.attributes[kChartKey] = text_of(ChartSize{map.width(), map.height()});
+  image.attributes[kChartKey] = text_of(map.frame.size);
   if (format.texture) {
     // Which has four channels in any case, or three.
     const auto& names = map.channel_names;
@@ -32,8 +32,8 @@ io::WriteOptions declared(const io::Capabilities& format, const Map& map, const 
   if (!options.faces.empty()) image.attributes[kFacesKey] = options.faces;
   if (options.border > 0) image.attributes[kBorderKey] = std::to_string(options.border);
   // OpenEXR's attribute also says how the world lies: as the native one; and it knows no borders.
-  if (!(map.orientation == Matrix3{})) {
-    image.attributes[kOrientationKey] = text_of(map.orientation);
+  if (!(map.frame.orientation == Matrix3{})) {
+    image.attributes[kOrientationKey] = text_of(map.frame.orientation);
   } else if (const sphere::Traits& traits = p.traits();
              !traits.envmap.empty() && options.faces.empty() && options.border == 0 &&
              (traits.layout.empty() || traits.layout == layout.name)) {
@@ -50,21 +50,34 @@ class Pictures {
 
   /// The picture of one cell, as a part without name or position. Refers to the map, and to what this keeps
   /// until the next `drop`.
-  io::WritePart of_cell(const Map& map, const LayoutCell& cell) {
-    const ImageView<const float> chart = chart_of(map, cell.chart);
-    if (!cell.mirrored && cell.quarter_turns == 0) return {"", chart, map.channel_names};
+  io::WritePart of_cell(const WrittenLevel& level, const LayoutCell& cell) {
     const bool on_its_side = (cell.quarter_turns & 1) != 0;
-    return drawn(map, on_its_side ? chart.height : chart.width, on_its_side ? chart.width : chart.height,
+    if (level.map == nullptr) {
+      const auto [width, height] = level.frame.size;
+      return drawn(level, on_its_side ? height : width, on_its_side ? width : height,
+                   [&cell, &level](int y, ImageView<float> rows) { level.draw(cell, y, rows); });
+    }
+    const ImageView<const float> chart = chart_of(*level.map, cell.chart);
+    if (!cell.mirrored && cell.quarter_turns == 0) return {"", chart, level.channel_names};
+    return drawn(level, on_its_side ? chart.height : chart.width, on_its_side ? chart.width : chart.height,
                  [&cell, chart](int y, ImageView<float> rows) { copy_to_cell_rows(cell, chart, y, rows); });
   }
 
   /// The picture of all cells.
-  io::WritePart of_all(const Map& map) {
-    if (placed_.cells.size() == 1) return of_cell(map, placed_.cells[0]);
+  io::WritePart of_all(const WrittenLevel& level) {
+    if (placed_.cells.size() == 1) return of_cell(level, placed_.cells[0]);
+    if (level.map == nullptr) {
+      const auto [width, height] = level.frame.size;
+      return drawn(level, width * placed_.columns, height * placed_.rows,
+                   [&layout = placed_, &level](int y, ImageView<float> rows) {
+                     draw_rows(layout, level.frame.size, level.draw, y, rows);
+                   });
+    }
+    const Map& map = *level.map;
     std::vector<ImageView<const float>> charts;
     for (int chart = 0; chart < map.charts(); ++chart) charts.push_back(chart_of(map, chart));
     const int width = charts.front().width * placed_.columns, height = charts.front().height * placed_.rows;
-    return drawn(map, width, height, [&layout = placed_, charts](int y, ImageView<float> rows) {
+    return drawn(level, width, height, [&layout = placed_, charts](int y, ImageView<float> rows) {
       draw_rows(layout, charts, y, rows);
     });
   }
@@ -76,10 +89,12 @@ class Pictures {
     if (border_ == 0) return map.level.chart(chart);
     return bordered_.emplace_back(with_safety_border(map, chart, border_)).view();
   }
-  static io::WritePart drawn(const Map& map, int width, int height,
+  static io::WritePart drawn(const WrittenLevel& level, int width, int height,
                              std::function<void(int, ImageView<float>)> draw) {
-    io::WritePart part{"", {nullptr, width, height, map.channels(), 0}, map.channel_names};
+    const int channels = static_cast<int>(level.channel_names.size());
+    io::WritePart part{"", {nullptr, width, height, channels, 0}, level.channel_names};
     part.draw = std::move(draw);
+    part.rows_at_once = level.rows_at_once;
     return part;
   }
 
@@ -142,12 +157,11 @@ std::vector<fs::path> files_of(const fs::path& path, const sphere::AnyParameteri
   return files;
 }
 
-io::WriteReport map_file::write_levels(const Destination& destination, std::span<const Map* const> levels,
+io::WriteReport map_file::write_levels(const Destination& destination, std::span<const WrittenLevel> levels,
                                        const Layout& layout, const WriteMapOptions& options) {
-  for (const Map* level : levels) level->check();
-  const Map& finest = *levels.front();
-  const auto& p = finest.parameterization;
-  Layout placed = layout_for(layout, p, finest.orientation);
+  const WrittenLevel& finest = levels.front();
+  const auto& p = finest.frame.parameterization;
+  Layout placed = layout_for(layout, p, finest.frame.orientation);
   if (!options.faces.empty()) placed = with_faces(placed, p, options.faces);
   if (destination.sink == nullptr) check_face_pattern(destination.path, placed);
   const io::WriteOptions image = declared(destination.format, finest, layout, options);
@@ -168,7 +182,7 @@ io::WriteReport map_file::write_levels(const Destination& destination, std::span
   const bool texture = destination.format.texture, cube = p.traits().cube_texture;
   std::vector<io::WritePart> parts;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const Map& map = *levels[level];
+    const WrittenLevel& map = levels[level];
     if (placed.kind == LayoutKind::picture) {
       parts.push_back(pictures.of_all(map));
       parts.back().level = static_cast<int>(level);
@@ -190,7 +204,7 @@ io::WriteReport map_file::write_levels(const Destination& destination, std::span
 
 io::WriteReport write_map(const fs::path& path, const Map& map, const Layout& layout,
                           const WriteMapOptions& options) {
-  const Map* const level = &map;
+  const WrittenLevel level(map);
   return write_levels(Destination(path), {&level, 1}, layout, options);
 }
 
@@ -201,7 +215,7 @@ io::WriteReport write_map(const fs::path& path, const Map& map, const WriteMapOp
 io::WriteReport write_map(io::ByteSink& sink, std::string_view format, const Map& map,
                           const WriteMapOptions& options) {
   const Destination destination(sink, format);
-  const Map* const level = &map;
+  const WrittenLevel level(map);
   return write_levels(destination, {&level, 1}, default_layout(map.parameterization, destination.format, 1),
                       options);
 }

@@ -70,6 +70,13 @@ struct Layout {
     // What is read, made and written of a piece stays in the second-level cache.
     constexpr std::uint64_t kPieceBytes = 1 << 19;
     piece = static_cast<int>(kPieceBytes / (line_bytes() * static_cast<std::uint64_t>(lines))) + 1;
+    // What is drawn several rows at once, as these lie, as long as that isn't much.
+    constexpr std::uint64_t kMaxDrawnBytes = 1 << 22;
+    const int drawn = part.draw ? part.rows_at_once : 1;
+    if (static_cast<std::uint64_t>(drawn) * line_bytes() <= kMaxDrawnBytes) {
+      const int rows = (piece * lines + drawn - 1) / drawn * drawn;
+      piece = (rows + lines - 1) / lines;
+    }
   }
   int chunks() const { return (part.image.height - 1) / lines + 1; }
   std::uint64_t channel_bytes() const {

@@ -1,4 +1,5 @@
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
@@ -177,12 +178,17 @@ WriteReport write_pfm(ByteSink& file, std::span<const WritePart> parts, const Wr
                              std::vector<bool>(order.size(), options.colour == Colour::srgb));
   const std::size_t row_bytes = static_cast<std::size_t>(image.width) * encoder.pixel_bytes();
   constexpr std::size_t kBatchBytes = std::size_t{1} << 20;
-  const int rows_of_batch = static_cast<int>(std::max<std::size_t>(1, kBatchBytes / row_bytes));
+  int rows_of_batch = static_cast<int>(std::max<std::size_t>(1, kBatchBytes / row_bytes));
+  if (part.draw) {
+    // Enough to draw for every thread.
+    const int all = 2 * tbb::this_task_arena::max_concurrency() * part.rows_at_once;
+    rows_of_batch = (rows_of_batch + all - 1) / all * all;
+  }
   std::vector<std::byte> batch;
   Image drawn;
   WriteReport report;
-  for (int bottom = image.height; bottom > 0; bottom -= rows_of_batch) {
-    const int top = std::max(0, bottom - rows_of_batch);
+  for (int bottom = image.height, top = 0; bottom > 0; bottom = top) {
+    top = (bottom - 1) / rows_of_batch * rows_of_batch;
     batch.resize(static_cast<std::size_t>(bottom - top) * row_bytes);
     const ImageView<const float> rows = draw_rows(part, top, bottom - top, drawn);
     for (int y = top; y < bottom; ++y) {

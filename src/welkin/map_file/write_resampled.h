@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+
+#include "welkin/base/export.h"
+#include "welkin/filter/resample.h"
+#include "welkin/map_file/map_file.h"
+
+namespace welkin {
+
+struct WriteResampledOptions {
+  ResampleOptions resample;  ///< `borders` is of no account
+  Matrix3 orientation;       ///< of the map that is written
+  float factor = 1;          ///< times every value, but for the channel A (scale)
+  ChainNotes notes;          ///< what the file says of its level
+  WriteMapOptions write;
+};
+
+/// Writes what the source becomes as a map of this shape and size: the same file as by resample() without
+/// borders (with them, where a safety border is written), scale() and write_chain() of the one level. The map
+/// itself is never in memory as a whole, as far as the format is written row by row: its texels are made when
+/// their turn comes. The source's borders must be filled. Throws as these do, and what a callback of the
+/// monitor throws; nothing is left behind then.
+WELKIN_API io::WriteReport write_resampled(const std::filesystem::path& path, const Map& source,
+                                           const MapShape& shape, ChartSize size,
+                                           const WriteResampledOptions& options = {});
+
+}  // namespace welkin
