@@ -16,7 +16,7 @@ namespace welkin {
 
 /// How a map is looked up.
 struct SamplerOptions {
-  /// `automatic` counts as `bicubic`: a direction has no area to average over.
+  /// `automatic` means `bicubic` here: a direction has no area to average over.
   Filter filter = Filter::bilinear;
   /// false: overshoot of bicubic and Lanczos is clamped to near the range of the footprint's texels, so that
   /// positive radiance stays positive (docs/filtering.md, "Overshoot"). true: unclamped.

@@ -102,31 +102,4 @@ Map Map::from_pixels(const sphere::AnyParameterization& which, const Pixels& cha
   return from_pixels(which, {&chart, 1});
 }
 
-void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height, int chart,
-                        int row, float* out) {
-  require(
-      width > 0 && height > 0 && row >= 0 && row < height && chart >= 0 && chart < parameterization.charts(),
-      "there is no such row of texels");
-  constexpr int kBatch = 256;
-  alignas(64) float u[kBatch], v[kBatch], density[kBatch], valid[kBatch];
-  const float texel_area = 1.0f / (static_cast<float>(width) * static_cast<float>(height));
-  const float centre = (static_cast<float>(row) + 0.5f) / static_cast<float>(height);
-  std::fill(std::begin(v), std::end(v), centre);
-  const sphere::Kernels& kernels = parameterization.kernels();
-  if (parameterization.density_by_row() && parameterization.full_charts()) {
-    std::fill(out, out + width,
-              static_cast<float>(parameterization.solid_angle_density(chart, 0.5, centre)) * texel_area);
-    return;
-  }
-  for (int start = 0; start < width; start += kBatch) {
-    const int count = std::min(kBatch, width - start);
-    for (int i = 0; i < kBatch; ++i) {
-      u[i] = (static_cast<float>(std::min(start + i, width - 1)) + 0.5f) / static_cast<float>(width);
-    }
-    kernels.density(parameterization.self(), chart, u, v, density, static_cast<std::size_t>(count));
-    kernels.valid(parameterization.self(), chart, u, v, valid, static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) out[start + i] = valid[i] > 0 ? density[i] * texel_area : 0.0f;
-  }
-}
-
 }  // namespace welkin

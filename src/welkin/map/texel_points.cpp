@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "welkin/base/error.h"
 #include "welkin/math/gauss_legendre.h"
 
 namespace welkin {
@@ -154,6 +155,10 @@ class CellPoints {
   std::vector<TexelPoint>& points_;
 };
 
+/// Gauss's rule of 2×2 points suffices where it differs from the value at the centre by less than this share:
+/// along a kink of the density its error is as large as that.
+constexpr float kSmooth = 1e-4f;
+
 constexpr std::size_t kBatch = 256;
 
 /// Values of a kernel at one position in each of up to kBatch texels of a row.
@@ -261,6 +266,56 @@ std::vector<double> summed_solid_angles(const AnyParameterization& p, ChartSize 
     for (const TexelPoint& point : points) omega[i] += point.solid_angle;
   }
   return omega;
+}
+
+void texel_solid_angles(const AnyParameterization& p, int width, int height, int chart, int row, float* out) {
+  require(width > 0 && height > 0 && row >= 0 && row < height && chart >= 0 && chart < p.charts(),
+          "there is no such row of texels");
+  const ChartSize size{width, height};
+  const bool full = p.full_charts();
+  std::vector<TexelPoint> points;
+  const auto summed = [&](int x) {
+    points.clear();
+    append_points(p, texel_cell(size, chart, x, row), texel_limits(p, size), points);
+    double sum = 0;
+    for (const TexelPoint& point : points) sum += point.solid_angle;
+    return static_cast<float>(sum);
+  };
+  if (full && p.density_by_row()) {
+    std::fill_n(out, width, summed(0));
+    return;
+  }
+  const float area = 1.0f / (static_cast<float>(width) * static_cast<float>(height));
+  for (int from = 0; from < width; from += static_cast<int>(kBatch)) {
+    float centre[kBatch] = {}, mean[kBatch] = {}, valid[kBatch] = {}, shown[kBatch] = {};
+    std::size_t count = 0;
+    float tests = 0;
+    const auto test = [&](double across, double down, float* sums, float share) {
+      Batch batch(size, row, from, across, down);
+      count = batch.count;
+      if (sums != nullptr) {
+        p.kernels().density(p.self(), chart, batch.u, batch.v, batch.value, count);
+        for (std::size_t i = 0; i < count; ++i) sums[i] += share * batch.value[i];
+      }
+      if (full) return;
+      p.kernels().valid(p.self(), chart, batch.u, batch.v, batch.value, count);
+      for (std::size_t i = 0; i < count; ++i) valid[i] += batch.value[i] > 0 ? 1.0f : 0.0f;
+      tests += 1;
+    };
+    test(0.5, 0.5, centre, 1);
+    std::copy(std::begin(valid), std::end(valid), std::begin(shown));
+    for (int k = 0; k < 4; ++k) {
+      if (!full) test(k % 2, k / 2, nullptr, 0);
+      test(kGauss[k % 2], kGauss[k / 2], mean, 0.25f);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const int x = from + static_cast<int>(i);
+      const bool outside = !full && shown[i] == 0, cut = !full && valid[i] < tests;
+      // NaN is not smooth.
+      const bool smooth = std::fabs(mean[i] - centre[i]) <= kSmooth * mean[i];
+      out[x] = outside ? 0.0f : !cut && smooth ? mean[i] * area : summed(x);
+    }
+  }
 }
 
 }  // namespace welkin

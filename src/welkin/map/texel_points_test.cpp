@@ -44,6 +44,29 @@ TEST(TexelPoints, TexelsCoverTheMap) {
   }
 }
 
+TEST(TexelPoints, SolidAnglesInFloatAreThose) {
+  for (const std::string& name : sphere::parameterization_names()) {
+    for (const int side : {9, 32}) {
+      const Map map = cases::make_map(name, side);
+      const ChartSize size{map.width(), map.height()};
+      std::vector<float> row(static_cast<std::size_t>(map.width()));
+      for (int chart = 0; chart < map.charts(); ++chart) {
+        for (int y = 0; y < map.height(); ++y) {
+          texel_solid_angles(map.parameterization, size.width, size.height, chart, y, row.data());
+          const std::vector<double> expected = summed_solid_angles(map.parameterization, size, chart, y);
+          for (int x = 0; x < size.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(x);
+            const bool shown =
+                map.parameterization.valid(chart, (x + 0.5) / size.width, (y + 0.5) / size.height);
+            EXPECT_NEAR(row[i], shown ? expected[i] : 0.0, (side < 32 ? 1e-3 : 1e-4) * expected[i] + 1e-9)
+                << name << ' ' << side << ' ' << chart << ' ' << y << ' ' << x;
+          }
+        }
+      }
+    }
+  }
+}
+
 /// A quarter of a disc of radius ½ within a cell, and what a rim leaves of a cell that it crosses.
 TEST(TexelPoints, RimsAreFollowed) {
   const auto p = AnyParameterization::make("fisheye-equisolid");

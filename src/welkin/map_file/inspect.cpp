@@ -70,10 +70,19 @@ Layout grid_of_picture(const Layout& layout) {
   return layout.kind == LayoutKind::picture ? layout : Layout{};
 }
 
+/// The parameterization that a value of OpenEXR's attribute `envmap` declares.
+std::string declared_by_envmap(const std::string& envmap) {
+  const std::vector<std::string> names = sphere::parameterization_names();
+  const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return sphere::AnyParameterization::make(name).traits().envmap == envmap;
+  });
+  return found == names.end() ? "" : *found;
+}
+
 /// Whether another program turned our map into the one that its `envmap` declares, and copied our declaration
 /// along.
 bool is_copied(const std::string& declared, const io::FileInfo& file) {
-  return file.envmap && !declared.starts_with("openexr-" + *file.envmap);
+  return file.envmap && !declared.starts_with(declared_by_envmap(*file.envmap));
 }
 
 /// Whether the file's pictures are the charts of a map: faces or layers of a texture.
@@ -101,8 +110,9 @@ Declaration declaration_for(const fs::path& path, const io::FileInfo& file, cons
             "declared by the file"};
   }
   if (file.envmap) {
-    const bool cube = *file.envmap == "cube";
-    return {cube ? "openexr-cube:openexr" : "openexr-latlong", options.faces,
+    const std::string name = declared_by_envmap(*file.envmap);
+    const std::string_view layout = sphere::AnyParameterization::make(name).traits().layout;
+    return {name + (layout.empty() ? "" : ":" + std::string(layout)), options.faces,
             "declared by the envmap attribute"};
   }
   if (const auto guessed = guess(file, pattern)) return {guessed->first, options.faces, guessed->second};

@@ -333,8 +333,7 @@ void draw_rows(const Layout& layout, ChartSize size, const DrawCell& draw_cell, 
 
 void draw_rows(const Layout& layout, const std::vector<ImageView<const float>>& charts, int first,
                ImageView<float> rows) {
-  require(charts.size() == layout.cells.size() && !charts.empty() &&
-              charts.front().channels == rows.channels,
+  require(charts.size() == layout.cells.size() && !charts.empty() && charts.front().channels == rows.channels,
           "a layout is drawn of one picture for each chart, of as many channels as the rows");
   draw_rows(
       layout, {charts.front().width, charts.front().height},

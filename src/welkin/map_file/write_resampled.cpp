@@ -87,7 +87,7 @@ io::WriteReport write_by_map(const std::filesystem::path& path, const Map& sourc
   target.channel_names = source.channel_names;
   target.orientation = frame.orientation;
   ResampleOptions resampling = options.resample;
-  resampling.borders = true;
+  resampling.borders = write.border > 0;
   resample(source, target, resampling);
   if (options.factor != 1) scale(target, options.factor);
   return write_map(path, target, layout, write);
@@ -100,10 +100,14 @@ io::WriteReport write_resampled(const std::filesystem::path& path, const Map& so
   const MapFrame frame(shape.parameterization, size, options.orientation);
   WriteMapOptions write = options.write;
   for (const auto& [key, text] : attributes_of(options.notes)) write.image.attributes[key] = text;
-  check_turns(
-      write.faces.empty() ? shape.layout : with_faces(shape.layout, shape.parameterization, write.faces),
-      size);
-  if (write.border > 0) return write_by_map(path, source, frame, shape.layout, write, options);
+  Layout placed = layout_for(shape.layout, frame.parameterization, frame.orientation);
+  if (!write.faces.empty()) placed = with_faces(placed, frame.parameterization, write.faces);
+  check_turns(placed, size);
+  // Filter::automatic makes texels as their chart lies; turning them band by band takes longer than a map.
+  const bool turned = std::any_of(placed.cells.begin(), placed.cells.end(),
+                                  [&](const LayoutCell& cell) { return !walk_of(cell, size).as_it_is(); });
+  const bool by_map = write.border > 0 || (turned && options.resample.filter == Filter::automatic);
+  if (by_map) return write_by_map(path, source, frame, shape.layout, write, options);
   CellMaker maker(source, frame, options);
   const WrittenLevel level(
       frame, source.channel_names,

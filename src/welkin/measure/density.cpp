@@ -121,6 +121,26 @@ class LimitSearch {
   Extreme maximum_{-std::numeric_limits<double>::infinity()};
 };
 
+/// The density at the centres of a row's texels, as sr per texel; 0 where a centre is not valid.
+void densities_at_centres(const AnyParameterization& p, ChartSize size, int chart, int row,
+                          std::vector<float>& out) {
+  constexpr int kBatch = 256;
+  alignas(64) float u[kBatch], v[kBatch], density[kBatch], valid[kBatch];
+  const float area = 1.0f / (static_cast<float>(size.width) * static_cast<float>(size.height));
+  std::fill(std::begin(v), std::end(v), (static_cast<float>(row) + 0.5f) / static_cast<float>(size.height));
+  for (int start = 0; start < size.width; start += kBatch) {
+    const int count = std::min(kBatch, size.width - start);
+    for (int i = 0; i < kBatch; ++i) {
+      u[i] =
+          (static_cast<float>(std::min(start + i, size.width - 1)) + 0.5f) / static_cast<float>(size.width);
+    }
+    p.kernels().density(p.self(), chart, u, v, density, static_cast<std::size_t>(count));
+    p.kernels().valid(p.self(), chart, u, v, valid, static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
+      out[static_cast<std::size_t>(start + i)] = valid[i] > 0 ? density[i] * area : 0.0f;
+  }
+}
+
 }  // namespace
 
 DensityLimits density_limits(const AnyParameterization& parameterization) {
@@ -138,12 +158,12 @@ DensityReport density_of(const AnyParameterization& parameterization, int size) 
   report.width = size;
   report.height = std::max(1, static_cast<int>(std::lround(size / parameterization.aspect())));
 
-  // At texel centres.
+  const ChartSize chart_size{size, report.height};
   std::vector<float> row(static_cast<std::size_t>(size));
   double minimum = std::numeric_limits<double>::infinity(), maximum = 0, texels = 0;
   for (int chart = 0; chart < parameterization.charts(); ++chart) {
     for (int y = 0; y < report.height; ++y) {
-      texel_solid_angles(parameterization, size, report.height, chart, y, row.data());
+      densities_at_centres(parameterization, chart_size, chart, y, row);
       for (const float value : row) {
         if (!(value > 0)) continue;
         minimum = std::min(minimum, static_cast<double>(value));

@@ -42,7 +42,7 @@ bool is_split(const lobe::AnyLobe& lobe, int degree) {
 /// whose edges then show.
 int near_rows(const sphere::AnyParameterization& source, double source_texel, double texel, int degree) {
   const double of_latlong = source_texel < texel ? 2.3 : 2.65;
-  const double per_texel = source.spec() == "latlong" ? of_latlong : 2.8;
+  const double per_texel = source.traits().latlong_grid ? of_latlong : 2.8;
   const double rows = std::min(per_texel * kPi / texel, 1.8 * degree);
   return std::max(32, static_cast<int>(std::ceil(rows / 16)) * 16);
 }

@@ -42,7 +42,7 @@ void spread_rows(const Map& map, const PointGridPlan& plan, PointGrid& grid, con
 
 /// Whether the map's rows can be spread and transformed as they are.
 bool has_plain_rows(const AnyParameterization& source, ChartSize size) {
-  return source.spec() == "latlong" && size.width % 2 == 0 && fft_takes(size.width);
+  return source.traits().latlong_grid && size.width % 2 == 0 && fft_takes(size.width);
 }
 
 /// So many rows locate a sun precisely enough for dark directions that have it on their horizon, however wide

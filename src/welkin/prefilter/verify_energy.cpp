@@ -125,7 +125,7 @@ std::vector<std::optional<std::vector<double>>> integrals_of_levels(const Map& s
     // About a light at a pole there are few rows: texels times solid angles are a poor sum of what rows
     // resolve.
     const bool resolved =
-        source.parameterization.spec() == "latlong" && lobes[i].width() > 3 * kPi / map.height();
+        source.parameterization.traits().latlong_grid && lobes[i].width() > 3 * kPi / map.height();
     integrals[i] = resolved ? grid_integral(map) : integral_of_texels(map);
   }
   return integrals;
