@@ -215,10 +215,10 @@ must convert cross.exr picture.ktx2 --to cube:hcross
 matches '^  texture           2-D, 1 level$' info picture.ktx2 --header
 matches 'picture           128×96,' info picture.ktx2 --header
 same cross.exr picture.ktx2 0
-# Looked up as conventions say: native faces, in the program's axes.
+# Looked up as conventions say: native faces, in the program's axes. Texels in other places of their charts are made in other ways.
 must convert card.exr cube.ktx2 --to cube --size 128
 must convert card.exr unity.ktx2 --to cube --size 128 --convention unity
-same cube.ktx2 unity.ktx2 1e-4
+same cube.ktx2 unity.ktx2 5e-3
 near "the native world" "$(sample_along cube.ktx2 1,0,0)" "${card_colour[1,0,0]}" 0.02
 near "reflected worlds" "$(sample_along unity.ktx2 1,0,0 --from-convention native)" "${card_colour[-1,0,0]}" 0.02
 

@@ -143,7 +143,7 @@ run convert wild.pfm wild.png
 must convert wild.pfm wild.exr
 near "NaN is kept" "$("$welkin" info wild.exr --json | number nan)" 1 0
 
-# The number of threads changes nothing, the instruction set only rounding.
+# The number of threads changes nothing, the instruction set only rounding, and with it by which of its ways `auto` makes a texel.
 for to in latlong cube octahedral healpix angular; do
   for options in "" "--rotate 10,20,30" "--filter lanczos" "--size 12"; do
     # shellcheck disable=SC2086
@@ -156,7 +156,9 @@ for to in latlong cube octahedral healpix angular; do
     # shellcheck disable=SC2086
     must convert sky.exr baseline.pfm --to $to $options
     unset WELKIN_INSTRUCTION_SET
-    same one.pfm baseline.pfm 1e-5 --from $to
+    tolerance=5e-4
+    [[ $options == *lanczos* ]] && tolerance=1e-5
+    same one.pfm baseline.pfm $tolerance --from $to
   done
 done
 

@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "welkin/filter/area.h"
 #include "welkin/map/map_cases.h"
 
 namespace welkin {
@@ -143,50 +142,9 @@ TEST(FetchTest, InstructionSetsAgree) {
       for (std::size_t i = 0; i < a.size(); ++i)
         ASSERT_NEAR(a[i], b[i], 1e-5 * channels) << channels << " kernel " << k;
     }
-    std::vector<float> means[2];
-    std::vector<Parallelogram> areas;
-    for (int i = 0; i < 60; ++i) {
-      const float angle = 0.1f * static_cast<float>(i), size = 1.0f / static_cast<float>(2 + i % 5);
-      areas.push_back({i % 6,
-                       12.3f + 0.01f * static_cast<float>(i),
-                       11.6f,
-                       {size * std::cos(angle), size * std::sin(angle)},
-                       {-0.7f * size * std::sin(angle), 0.7f * size * std::cos(angle)},
-                       {0.1f, -0.2f}});
-    }
-    for (int k = 0; k < 2; ++k) {
-      means[k].resize(areas.size() * static_cast<std::size_t>(channels) + 8);
-      const AreaMean mean = k == 0 ? area_mean_baseline(channels) : area_mean_avx2(channels);
-      mean(view_of(map.level), areas.data(), means[k].data(), areas.size());
-    }
-    for (std::size_t i = 0; i + 8 < means[0].size(); ++i)
-      ASSERT_NEAR(means[0][i], means[1][i], 1e-5 * channels);
   }
 }
 #endif
-
-/// An upright box over whole texels is their mean, blurred by the tent: exact for a plane.
-TEST(AreaMeanTest, TheMeanOfAPlaneIsItsValueAtTheMiddleAndWeightsPullIt) {
-  Map map(sphere::AnyParameterization::make("latlong"), 64, 32, 1);
-  for (int y = -kBorder; y < 32 + kBorder; ++y) {
-    for (int x = -kBorder; x < 64 + kBorder; ++x) {
-      *map.level.chart(0).at(x, y) =
-          0.25f * (static_cast<float>(x) + 0.5f) + 0.5f * (static_cast<float>(y) + 0.5f);
-    }
-  }
-  const Parallelogram boxes[] = {
-      {0, 20.5f, 10.25f, {0.25f, 0}, {0, 0.125f}, {0, 0}},
-      {0, 30.2f, 16.7f, {0.1f, 0.05f}, {-0.05f, 0.1f}, {0, 0}},
-      // Weight 1 + a over a box 4 texels wide: the middle moves by 4/12 to the right.
-      {0, 20.5f, 10.25f, {0.25f, 0}, {0, 0.125f}, {1, 0}},
-  };
-  float means[16];
-  area_mean(1)(view_of(map.level), boxes, means, 3);
-  EXPECT_NEAR(means[0], 0.25 * 20.5 + 0.5 * 10.25, 1e-5);
-  EXPECT_NEAR(means[1], 0.25 * 30.2 + 0.5 * 16.7, 0.01);
-  // The tents at both ends widen the box's second moment.
-  EXPECT_NEAR(means[2] - means[0], 0.25 * 4 * (1.0 / 12 + 1.0 / 6 / 16), 0.01);
-}
 
 }  // namespace
 }  // namespace welkin

@@ -26,27 +26,13 @@ struct Footprint {
 Footprint footprint_at(const Map& source, const MapFrame& target, const Matrix3& to_source, int chart,
                        double x, double y);
 
-/// A rectangle of target texels that is sampled in one manner.
-struct FootprintTile {
-  int chart, x, y, width, height;
-  int samples_right, samples_down;  ///< per texel; 1×1 is one look-up at the centre
-  int level;                        ///< of the source's pyramid
-  bool whole;  ///< every texel is averaged over all of its area, which spans several source texels
-  /// Source texels that a target texel crosses, to the right and down, at the tile's four corners (top left,
-  /// top right, bottom left, bottom right).
-  float texels_right[4], texels_down[4];
-};
+/// The narrow side of a target's footprints, by a sample of them: narrower ones make up a twentieth of the
+/// solid angle. Infinite where there is none.
+double narrow_footprint(const Map& source, const MapFrame& target, const Matrix3& to_source);
 
-/// The fraction of a target texel's side that is averaged when that side crosses `texels` source texels: 0
-/// for a look-up at the centre, 1 for the whole side.
-float averaged_fraction(float texels);
-
-/// Tiles of a whole target chart row band: covers `rows` rows from `first_row` of `chart`. Tiles are split
-/// until the footprint hardly changes within one.
-void plan_tiles(const Map& source, const MapFrame& target, const Matrix3& to_source, int chart, int first_row,
-                int rows, std::vector<FootprintTile>& tiles);
-
-/// Height of the bands that plan_tiles is meant for.
-inline constexpr int kTileSide = 32;
+/// Whether Filter::automatic reconstructs what is within a source's texels: while footprints are narrower
+/// than 2½ of them. Beyond, it takes texels as they are. For all of a target alike, or light would
+/// be lost between two texels that share one of the source's.
+bool is_reconstructed(const Map& source, const MapFrame& target, const Matrix3& to_source);
 
 }  // namespace welkin

@@ -74,45 +74,18 @@ TEST(FootprintTest, EdgesAndPolesOfTheSourceAreNotLost) {
   }
 }
 
-/// Every texel is in one tile, and where tiles are averaged they see nothing finer than their samples.
-TEST(FootprintTest, TilesCoverABandOnce) {
-  const Map source = make_map("latlong", 700), target = make_map("octahedral", 75);
-  std::vector<int> seen(static_cast<std::size_t>(target.width() * target.height()));
-  for (int y = 0; y < target.height(); y += kTileSide) {
-    std::vector<FootprintTile> tiles;
-    plan_tiles(source, target, {}, 0, y, std::min(kTileSide, target.height() - y), tiles);
-    for (const FootprintTile& tile : tiles) {
-      EXPECT_GE(tile.samples_right, 1);
-      EXPECT_GE(tile.level, 0);
-      EXPECT_LE(tile.level, 10);
-      for (int j = tile.y; j < tile.y + tile.height; ++j) {
-        for (int i = tile.x; i < tile.x + tile.width; ++i)
-          ++seen[static_cast<std::size_t>(j * target.width() + i)];
-      }
-    }
-  }
-  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
-}
-
-TEST(FootprintTest, TheLevelLeavesEightTexelsAcross) {
-  const Map source = make_map("cube", 1024), target = make_map("cube", 16);
-  std::vector<FootprintTile> tiles;
-  plan_tiles(source, target, {}, 4, 0, 16, tiles);
-  for (const FootprintTile& tile : tiles) {
-    EXPECT_EQ(tile.level, 2);  // 1024/16 = 64 texels: 64/2³ = 8, less the footprint's rounding
-    EXPECT_TRUE(tile.whole);
-  }
-  tiles.clear();
-  plan_tiles(target, source, {}, 4, 0, 32, tiles);
-  for (const FootprintTile& tile : tiles) EXPECT_EQ(tile.samples_right * tile.samples_down, 1);
-}
-
-TEST(FootprintTest, AveragedFractionRisesFromZeroToOne) {
-  EXPECT_EQ(averaged_fraction(0), 0);
-  EXPECT_EQ(averaged_fraction(1), 0);
-  EXPECT_EQ(averaged_fraction(2.5f), 1);
-  EXPECT_EQ(averaged_fraction(1000), 1);
-  for (float t = 0; t < 3; t += 0.01f) EXPECT_GE(averaged_fraction(t + 0.01f), averaged_fraction(t));
+/// As many texels of the source as the sizes say, but for a twentieth of the sphere at the poles of a
+/// lat-long.
+TEST(FootprintTest, TheNarrowSideLeavesPolesAside) {
+  const Map cube = make_map("cube", 256), small_cube = make_map("cube", 16),
+            latlong = make_map("latlong", 32);
+  const double ratio = narrow_footprint(cube, small_cube, {});
+  EXPECT_NEAR(ratio, 16, 0.05);
+  const double side = 256.0 * 2 / (kPi * latlong.height() / 2);
+  EXPECT_GT(narrow_footprint(cube, latlong, {}), 0.25 * side);
+  EXPECT_LT(narrow_footprint(cube, latlong, {}), side);
+  EXPECT_TRUE(is_reconstructed(small_cube, cube, {}));
+  EXPECT_FALSE(is_reconstructed(cube, small_cube, {}));
 }
 
 }  // namespace

@@ -39,6 +39,14 @@ class CopyMaker final : public TexelMaker {
   const ResampleJob job_;
 };
 
+/// But for what rounding leaves of turns that add up to none.
+bool are_alike(const Matrix3& a, const Matrix3& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < 9; ++i)
+    largest = std::max(largest, std::fabs(a.rows[i / 3][i % 3] - b.rows[i / 3][i % 3]));
+  return largest < 1e-12;
+}
+
 }  // namespace
 
 std::unique_ptr<TexelMaker> make_texels(const Map& source, const MapFrame& target,
@@ -46,9 +54,9 @@ std::unique_ptr<TexelMaker> make_texels(const Map& source, const MapFrame& targe
   ResampleJob job(source, target, options);
   const bool same = source.parameterization == target.parameterization &&
                     source.width() == target.size.width && source.height() == target.size.height &&
-                    source.orientation * transpose(options.rotation) == target.orientation;
+                    are_alike(source.orientation * transpose(options.rotation), target.orientation);
   if (same) return std::make_unique<CopyMaker>(std::move(job));
-  if (options.filter == Filter::automatic) return make_by_areas(std::move(job));
+  if (options.filter == Filter::automatic) return make_means(std::move(job));
   const Fetch kernel = job.fetch_of(options.filter);
   return make_by_points(std::move(job), kernel);
 }

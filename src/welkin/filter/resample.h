@@ -17,9 +17,9 @@ struct ResampleOptions {
   /// Rotates the world: what was seen along d is seen along rotation·d afterwards. Orthonormal; not checked
   /// (is_orthonormal).
   Matrix3 rotation = {};
-  /// Bicubic and Lanczos kernels have negative lobes. Unless this is set, their overshoot is clamped to near
-  /// the range of the footprint's texels, so radiance never becomes negative beside a bright spot
-  /// (docs/filtering.md, "Overshoot").
+  /// Bicubic and Lanczos kernels have negative lobes, and so has what `automatic` reconstructs. Unless this
+  /// is set, their overshoot is clamped, or limited, so radiance never becomes negative beside a bright spot
+  /// (docs/filtering.md).
   bool allow_ringing = false;
   /// For directions that the source doesn't show and texels that aren't a position of the target: one value
   /// per channel; 0 where there are fewer.
@@ -34,9 +34,9 @@ struct ResampleOptions {
 /// Fills the target's charts from the source, whose borders must be filled, and then the target's borders.
 /// Each is read by its own orientation; channels go by position, and both have as many. The two are different
 /// maps. Reads the source only; besides it needs at most a pyramid of a third of the source, and only to
-/// minify more than sixteenfold. Positions are exact to 1e-6 of a chart's side; the error of `automatic`
-/// against exact area sampling is measured in docs/benchmarks.md. Throws Error (bad_request) for maps of
-/// other numbers of channels; Cancelled.
+/// minify more than sixteenfold. Positions are exact to 1e-6 of a chart's side. `automatic` keeps light: the
+/// integral over the sphere, and that of every texel, within the bounds that docs/filtering.md gives. Throws
+/// Error (bad_request) for maps of other numbers of channels; Cancelled.
 ///
 /// A target of the source's own parameterization, size and orientation gets the texels as they are.
 WELKIN_API void resample(const Map& source, Map& target, const ResampleOptions& options = {});

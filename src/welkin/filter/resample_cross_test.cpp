@@ -172,7 +172,8 @@ TEST_P(ResampleEdgeTest, ErrorsAtAnEdgeAreLikeThoseInside) {
         worst = std::max(worst, r.error / r.texel);
       });
     }
-    EXPECT_LT(edge, 2 * inside + 0.02) << name_of(filter);
+    // A mean is not the value in the middle, and at a pole its texels are the longest.
+    EXPECT_LT(edge, 2 * inside + (filter == Filter::automatic ? 0.05 : 0.02)) << name_of(filter);
   }
 }
 

@@ -71,6 +71,6 @@ void resample_rectangle(const ResampleJob& job, Fetch kernel, const ChartPart& p
 std::unique_ptr<TexelMaker> make_by_points(ResampleJob job, Fetch kernel);
 
 /// Texels by Filter::automatic.
-std::unique_ptr<TexelMaker> make_by_areas(ResampleJob job);
+std::unique_ptr<TexelMaker> make_means(ResampleJob job);
 
 }  // namespace welkin

@@ -1,6 +1,8 @@
 #include "welkin/filter/resample_reference.h"
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
+#include "welkin/filter/footprint.h"
+#include "welkin/filter/reconstruction.h"
 
 #include <algorithm>
 #include <array>
@@ -33,9 +35,9 @@ double kernel(Filter filter, double t) {
     case Filter::lanczos:
       return t < 3 ? sinc(t) * sinc(t / 3) : 0;
     case Filter::bilinear:
-    case Filter::automatic:
       return std::max(0.0, 1 - t);
     case Filter::nearest:
+    case Filter::automatic:
       break;
   }
   return t <= 0.5 ? 1 : 0;
@@ -95,6 +97,10 @@ class Reference {
       : source_(source),
         target_(target),
         options_(options),
+        reconstructed_(options.filter == Filter::automatic &&
+                       is_reconstructed(
+                           source, target,
+                           source.orientation * transpose(options.rotation) * transpose(target.orientation))),
         samples_(options.filter == Filter::automatic ? samples : 1),
         to_source_(source.orientation * transpose(options.rotation) * transpose(target.orientation)),
         fill_(options.fill.begin(), options.fill.end()) {
@@ -140,6 +146,18 @@ class Reference {
     }
     const auto position = p.from_sphere(d);
     const ImageView<const float> chart = source_.level.chart(static_cast<int>(position.chart));
+    if (options_.filter == Filter::automatic) {
+      const double x = position.u * source_.width(), y = position.v * source_.height();
+      const int column = static_cast<int>(clamp(std::floor(x), 0.0, source_.width() - 1.0)),
+                row = static_cast<int>(clamp(std::floor(y), 0.0, source_.height() - 1.0));
+      const bool within = reconstructed_ && is_whole(static_cast<int>(position.chart), column, row);
+      for (std::size_t c = 0; c < value.size(); ++c) {
+        const int channel = static_cast<int>(c);
+        value[c] = within ? radiance_within(chart, column, row, channel, x - column - 0.5, y - row - 0.5)
+                          : static_cast<double>(chart.at(column, row)[channel]);
+      }
+      return;
+    }
     const Weights across = weights_at(options_.filter, position.u, source_.width());
     const Weights down = weights_at(options_.filter, position.v, source_.height());
     const bool rings = options_.filter == Filter::bicubic || options_.filter == Filter::lanczos;
@@ -157,9 +175,70 @@ class Reference {
     }
   }
 
+  /// Whether a texel is valid to its corners.
+  bool is_whole(int chart, int x, int y) const {
+    for (int k = 0; k < 4; ++k) {
+      if (!source_.parameterization.valid(chart, static_cast<double>(x + k % 2) / source_.width(),
+                                          static_cast<double>(y + k / 2) / source_.height()))
+        return false;
+    }
+    return true;
+  }
+
+  /// The reconstruction of reconstruction.h at (x, y), −½…½ from the texel's centre.
+  double radiance_within(const ImageView<const float>& chart, int column, int row, int channel, double x,
+                         double y) const {
+    const auto texel = [&](int right, int down) {
+      return static_cast<double>(chart.at(column + right, row + down)[channel]);
+    };
+    const auto odd = [](const auto& value) {
+      double sum = 0;
+      for (int j = 1; j <= kReconstructionReach; ++j)
+        sum += static_cast<double>(kOddTaps[j - 1]) * (value(j) - value(-j));
+      return sum;
+    };
+    const auto even = [](const auto& value) {
+      double sum = 0;
+      for (int j = 1; j <= kReconstructionReach; ++j)
+        sum += static_cast<double>(kEvenTaps[j - 1]) * (value(j) + value(-j) - 2 * value(0));
+      return sum;
+    };
+    const double m = texel(0, 0);
+    double a[5] = {odd([&](int j) { return texel(j, 0); }), odd([&](int j) { return texel(0, j); }),
+                   even([&](int j) { return texel(j, 0); }),
+                   odd([&](int k) { return odd([&](int j) { return texel(j, k); }); }),
+                   even([&](int j) { return texel(0, j); })};
+    const auto at = [&](double px, double py) {
+      return m + a[0] * px + a[1] * py + a[2] * (px * px - 1.0 / 12) + a[3] * px * py +
+             a[4] * (py * py - 1.0 / 12);
+    };
+    if (!options_.allow_ringing) {
+      double lowest = m, highest = m, low = m, high = m;
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          lowest = std::min(lowest, at(0.5 * i, 0.5 * j));
+          highest = std::max(highest, at(0.5 * i, 0.5 * j));
+          low = std::min(low, texel(i, j));
+          high = std::max(high, texel(i, j));
+        }
+      }
+      const double beyond = static_cast<double>(kBeyond) * (high - low);
+      const bool deep = lowest < -static_cast<double>(kDeep) * std::fabs(m);
+      const double positive = deep ? std::min(low, std::max(0.5 * low, 0.0))
+                                   : std::min(low, 0.0) - static_cast<double>(kUndershoot) * std::fabs(m);
+      const double floor = std::max(positive, low - beyond), ceiling = high + beyond;
+      double share = 1;
+      if (lowest < floor) share = (m - floor) / (m - lowest);
+      if (highest > ceiling) share = std::min(share, (ceiling - m) / (highest - m));
+      for (double& each : a) each *= share;
+    }
+    return at(x, y);
+  }
+
   const Map& source_;
   Map& target_;
   const ResampleOptions& options_;
+  const bool reconstructed_;
   const int samples_;
   const Matrix3 to_source_;
   Values fill_;

@@ -12,10 +12,10 @@ namespace welkin {
 /// Nearest, bilinear, bicubic and lanczos are one look-up per texel through AnyParameterization's double
 /// functions, with kernel weights in double, from the source's texels and borders.
 ///
-/// `automatic` is the mean over the texel's solid angle of the bilinear interpolation of the source: samples
-/// × samples points on a regular grid, each weighted by the target's density there. No pyramid is read, so it
-/// tends to exact area sampling as `samples` grows; there should be at least one point per source texel.
-/// resample() itself interpolates with Lanczos where it does not minify, and that is not compared here.
+/// `automatic` is the mean over the texel's solid angle of what is reconstructed within the source's texels
+/// (docs/filtering.md), or of the texels as they are where resample() takes them so: samples × samples points
+/// on a regular grid, each weighted by the target's density there. No pyramid is read, so it tends to the
+/// exact mean as `samples` grows; there should be several points per source texel.
 ///
 /// Directions that the source does not show count as `fill`, and so does a texel none of whose points is a
 /// position of the target. Fills the target's charts, not its borders. samples ≥ 1; both maps have the same

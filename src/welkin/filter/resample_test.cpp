@@ -102,7 +102,9 @@ double minimum_beside_a_light(Filter filter, bool allow_ringing, double dark) {
 TEST(ResampleTest, LightNeverBecomesNegativeUnlessRingingIsAllowed) {
   for (const Filter filter : kFilters) {
     EXPECT_GE(minimum_beside_a_light(filter, false, 0), 0) << name_of(filter);
-    EXPECT_GE(minimum_beside_a_light(filter, false, 0.25), 0.125 - 1e-6) << name_of(filter);
+    // A look-up is at least half the smallest texel; a mean of texels that keep theirs is not negative.
+    const double smallest = filter == Filter::automatic ? 0 : 0.125 - 1e-6;
+    EXPECT_GE(minimum_beside_a_light(filter, false, 0.25), smallest) << name_of(filter);
   }
   for (const Filter filter : {Filter::automatic, Filter::bicubic, Filter::lanczos}) {
     EXPECT_LT(minimum_beside_a_light(filter, true, 0), -1e4) << name_of(filter);

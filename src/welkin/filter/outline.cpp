@@ -1,0 +1,219 @@
+#include "welkin/filter/outline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace welkin {
+namespace {
+
+using sphere::AnyParameterization;
+
+/// Texel edges are traced a little inside of where they are, all by the same: exactly on the edge of a chart
+/// of the source, where aligned maps have them, rounding would decide on which side they lie.
+constexpr double kAside = 7.3e-5;
+/// Deviation of a chord from its curve, texels.
+constexpr double kFlat = 0.003;
+/// Of an edge, before what is left of it counts as a jump from one chart to the next.
+constexpr int kDepth = 13;
+
+double line(int index, int count) {
+  return (index + (index == count ? -kAside : kAside)) / count;
+}
+
+/// +1 where u, v and the direction make a right-handed frame.
+double turn_of(const AnyParameterization& p, int chart) {
+  constexpr double kStep = 1e-4;
+  for (const double at : {0.5, 0.45, 0.4}) {
+    const Vec3d d = p.to_sphere(chart, at, at + 0.01);
+    const Vec3d right = p.to_sphere(chart, at + kStep, at + 0.01) - d,
+                down = p.to_sphere(chart, at, at + 0.01 + kStep) - d;
+    const double volume = dot(cross(right, down), d);
+    if (std::fabs(volume) > 1e-12) return volume > 0 ? 1 : -1;
+  }
+  return 1;
+}
+
+std::vector<double> turns_of(const AnyParameterization& p) {
+  std::vector<double> turns;
+  for (int chart = 0; chart < p.charts(); ++chart) turns.push_back(turn_of(p, chart));
+  return turns;
+}
+
+/// How far from the middle positions are valid along a line of constant v (or u).
+double valid_until(const AnyParameterization& p, bool along_u, double end) {
+  const auto valid = [&](double t) { return along_u ? p.valid(0, t, 0.5) : p.valid(0, 0.5, t); };
+  if (valid(end)) return end;
+  double inside = 0.5, outside = end;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (valid(middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+}  // namespace
+
+Outline::Outline(const AnyParameterization& source, ChartSize source_size, const MapFrame& target,
+                 const Matrix3& to_source)
+    : source_(source),
+      target_(target),
+      to_source_(to_source),
+      width_(source_size.width),
+      height_(source_size.height),
+      left_(valid_until(source, true, 0) * width_),
+      right_(valid_until(source, true, 1) * width_),
+      top_(valid_until(source, false, 0) * height_),
+      bottom_(valid_until(source, false, 1) * height_),
+      rectangle_(source.full_charts()),
+      target_full_(target.parameterization.full_charts()),
+      turn_(turns_of(source)),
+      target_turn_(turns_of(target.parameterization)) {
+  if (determinant(to_source_) < 0) {
+    for (double& turn : turn_) turn = -turn;
+  }
+  if (!rectangle_) {
+    const double inside_x = 1e-6 * width_, inside_y = 1e-6 * height_;
+    rectangle_ = true;
+    for (const double x : {left_ + inside_x, right_ - inside_x}) {
+      for (const double y : {top_ + inside_y, bottom_ - inside_y})
+        rectangle_ = rectangle_ && source.valid(0, x / width_, y / height_);
+    }
+  }
+}
+
+Outline::Position Outline::locate(int chart, double u, double v) const {
+  const Vec3d direction = to_source_ * target_.parameterization.to_sphere(chart, u, v);
+  const auto position = source_.from_sphere(direction);
+  const bool shown =
+      source_.covers(direction) && (target_full_ || target_.parameterization.valid(chart, u, v));
+  return {u, v, static_cast<int>(position.chart), position.u * width_, position.v * height_, shown};
+}
+
+bool Outline::follow(int chart, const Position& from, const Position& to, int depth,
+                     std::vector<Run>& runs) const {
+  const Position middle = locate(chart, 0.5 * (from.u + to.u), 0.5 * (from.v + to.v));
+  if (!middle.shown) return false;
+  const bool one_chart = from.chart == to.chart && middle.chart == from.chart;
+  // Away from the chord, and uneven along it where that is more than a few texels long.
+  const double away_x = middle.x - 0.5 * (from.x + to.x), away_y = middle.y - 0.5 * (from.y + to.y);
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const bool flat =
+      std::max(std::fabs(away_x), std::fabs(away_y)) < kFlat && length < 0.2 * std::min(width_, height_) + 2;
+  if (one_chart && flat) {
+    runs.back().points.push_back({to.x, to.y});
+    return true;
+  }
+  if (depth == kDepth) {
+    const double apart = std::max(std::fabs(to.x - from.x), std::fabs(to.y - from.y));
+    if (from.chart != to.chart || apart > 1e-3) runs.push_back({to.chart, {}});
+    runs.back().points.push_back({to.x, to.y});
+    return true;
+  }
+  return follow(chart, from, middle, depth + 1, runs) && follow(chart, middle, to, depth + 1, runs);
+}
+
+/// Positions on the chart's edge from its top left corner on, clockwise, 0…4.
+double Outline::along_edge(const OutlinePoint& point) const {
+  const double across = (point.x - left_) / (right_ - left_), down = (point.y - top_) / (bottom_ - top_);
+  const double from[4] = {std::fabs(down), std::fabs(1 - across), std::fabs(1 - down), std::fabs(across)};
+  const double at[4] = {across, down, 1 - across, 1 - down};
+  const auto side = std::min_element(std::begin(from), std::end(from)) - std::begin(from);
+  return static_cast<double>(side) + std::clamp(at[side], 0.0, 1.0);
+}
+
+void Outline::add_corners(double from, double length, std::vector<OutlinePoint>& points) const {
+  const OutlinePoint corners[4] = {{left_, top_}, {right_, top_}, {right_, bottom_}, {left_, bottom_}};
+  if (length >= 0) {
+    for (int k = static_cast<int>(std::floor(from)) + 1; k < from + length; ++k)
+      points.push_back(corners[k & 3]);
+  } else {
+    for (int k = static_cast<int>(std::ceil(from)) - 1; k > from + length; --k)
+      points.push_back(corners[k & 3]);
+  }
+}
+
+bool Outline::trace(int chart, int x, int y, std::vector<OutlineLoop>& loops) const {
+  loops.clear();
+  const double u[2] = {line(x, target_.size.width), line(x + 1, target_.size.width)},
+               v[2] = {line(y, target_.size.height), line(y + 1, target_.size.height)};
+  constexpr int kSteps = 2;  // of an edge, at least
+  std::vector<Run> runs(1);
+  Position start{}, at{};
+  for (int edge = 0; edge < 4; ++edge) {
+    // Clockwise. Both texels at an edge divide it at the same positions.
+    const bool right = edge == 0 || edge == 2;
+    for (int step = 0; step < kSteps; ++step) {
+      const double from = static_cast<double>(step) / kSteps, to = static_cast<double>(step + 1) / kSteps;
+      const auto along = [&](double t) {
+        const double s = edge < 2 ? t : 1 - t;
+        const double across = u[0] + s * (u[1] - u[0]), down = v[0] + s * (v[1] - v[0]);
+        return right ? locate(chart, across, edge == 0 ? v[0] : v[1])
+                     : locate(chart, edge == 1 ? u[1] : u[0], down);
+      };
+      if (edge == 0 && step == 0) {
+        start = at = along(from);
+        if (!start.shown) return false;
+        runs[0] = {start.chart, {{start.x, start.y}}};
+      }
+      const Position next = edge == 3 && step == kSteps - 1 ? start : along(to);
+      if (!next.shown || !follow(chart, at, next, 0, runs)) return false;
+      at = next;
+    }
+  }
+  // The last run goes on in the first, at the corner that both have.
+  const bool whole = runs.size() == 1;
+  if (!whole) {
+    Run& first = runs.front();
+    const Run& last = runs.back();
+    first.points.insert(first.points.begin(), last.points.begin(), last.points.end() - 1);
+    runs.pop_back();
+  }
+  const auto turn = [&](int source_chart) {
+    return turn_[static_cast<std::size_t>(source_chart)] * target_turn_[static_cast<std::size_t>(chart)];
+  };
+  if (whole) {
+    // Around the outside of a disc, all of whose rim is one direction, it turns the other way.
+    double area = 0;
+    const auto& p = runs[0].points;
+    for (std::size_t i = 0; i + 1 < p.size(); ++i) area += p[i].x * p[i + 1].y - p[i + 1].x * p[i].y;
+    if (area * turn(runs[0].chart) < 0) return false;
+    loops.push_back({runs[0].chart, std::move(runs[0].points)});
+    return true;
+  }
+  if (!rectangle_) return false;
+
+  // Runs end on the edge of the chart, and its edge leads on to the next: clockwise or against it, as the
+  // outline itself turns there.
+  std::vector<bool> used(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (used[i]) continue;
+    OutlineLoop loop{runs[i].chart, {}};
+    const double direction = turn(loop.chart);
+    std::size_t now = i;
+    do {
+      used[now] = true;
+      loop.points.insert(loop.points.end(), runs[now].points.begin(), runs[now].points.end());
+      const double end = along_edge(runs[now].points.back());
+      std::size_t next = i;
+      double shortest = 5;
+      for (std::size_t k = 0; k < runs.size(); ++k) {
+        if (runs[k].chart != loop.chart || (used[k] && k != i)) continue;
+        double length = direction * (along_edge(runs[k].points.front()) - end);
+        length -= 4 * std::floor(length / 4);
+        // All the way round is where it began.
+        if (length > 3.99) length = 0;
+        if (length < shortest) {
+          shortest = length;
+          next = k;
+        }
+      }
+      if (shortest > 3.5) return false;
+      add_corners(end, direction * shortest, loop.points);
+      now = next;
+    } while (now != i);
+    loops.push_back(std::move(loop));
+  }
+  return true;
+}
+
+}  // namespace welkin

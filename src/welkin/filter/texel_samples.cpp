@@ -1,0 +1,75 @@
+#include "welkin/filter/texel_samples.h"
+
+#include <algorithm>
+
+namespace welkin {
+namespace {
+
+/// Points along a side of a texel that lies where neither outline nor reconstruction serve.
+constexpr int kSamples = 32, kManySamples = 256;
+static_assert(kBatch % kSamples == 0 && kBatch % kManySamples == 0);
+
+}  // namespace
+
+TexelSamples::TexelSamples(const ResampleJob& job, const LevelView& level)
+    : job_(job),
+      view_(level),
+      huge_(std::min(job.target.size.width, job.target.size.height) <= 2),
+      source_is_full_(job.source.parameterization.full_charts()) {}
+
+bool TexelSamples::is_outside(int chart, int x, int y) const {
+  if (job_.target_is_full) return false;
+  for (int i = 0; i < 9; ++i) {
+    if (job_.target.parameterization.valid(chart, (x + 0.5 * (i % 3)) / job_.target.size.width,
+                                           (y + 0.5 * (i / 3)) / job_.target.size.height))
+      return false;
+  }
+  return true;
+}
+
+void TexelSamples::leave(int chart, int x, int y, Batch& batch, float* out) const {
+  if (!job_.target.parameterization.filled_to_edges()) {
+    std::copy(job_.fill.begin(), job_.fill.end(), out);
+    return;
+  }
+  TexelWalk walk;
+  walk.start_x = x;
+  walk.start_y = y;
+  resample_rectangle(job_, job_.fetch_of(Filter::automatic), {chart, walk},
+                     {out, 1, 1, view_.channels, view_.channels}, batch);
+}
+
+void TexelSamples::sample(int chart, int x, int y, Batch& batch, std::vector<double>& sum, float* out) const {
+  const float across = 1.0f / static_cast<float>(job_.target.size.width),
+              down = 1.0f / static_cast<float>(job_.target.size.height);
+  // About the direction that a whole rim shows, very many texels of the source are seen in few of the
+  // target's.
+  const int side = huge_ || (!source_is_full_ && job_.source_is_whole) ? kManySamples : kSamples;
+  const float step = 1.0f / static_cast<float>(side);
+  const std::size_t channels = job_.channels();
+  sum.assign(channels, 0.0);
+  double total = 0;
+  const int rows_at_once = kBatch / side;
+  for (int first = 0; first < side; first += rows_at_once) {
+    for (int i = 0; i < kBatch; ++i) {
+      batch.u[i] = (static_cast<float>(x) + (static_cast<float>(i % side) + 0.5f) * step) * across;
+      batch.v[i] = (static_cast<float>(y) + (static_cast<float>(first + i / side) + 0.5f) * step) * down;
+    }
+    batch.locate(chart, kBatch);
+    batch.weigh(chart, kBatch);
+    // Texels by their own value, which keeps their light; but in pictures that go on past their rim, what
+    // is beyond it is looked up, and is to fit.
+    const bool goes_on = huge_ || (source_is_full_ && job_.target.parameterization.filled_to_edges());
+    const float* value = batch.fetch(goes_on ? job_.kernels.bilinear : job_.kernels.nearest, view_, kBatch);
+    for (int i = 0; i < kBatch; ++i, value += channels) {
+      if (!(batch.weight[i] > 0)) continue;
+      const double weight = static_cast<double>(batch.weight[i]);
+      total += weight;
+      for (std::size_t c = 0; c < channels; ++c) sum[c] += weight * static_cast<double>(value[c]);
+    }
+  }
+  if (!(total > 0)) return leave(chart, x, y, batch, out);
+  for (std::size_t c = 0; c < channels; ++c) out[c] = static_cast<float>(sum[c] / total);
+}
+
+}  // namespace welkin
