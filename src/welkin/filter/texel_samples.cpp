@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "welkin/filter/footprint.h"
+
 namespace welkin {
 namespace {
 
@@ -16,6 +18,13 @@ TexelSamples::TexelSamples(const ResampleJob& job, const LevelView& level)
       view_(level),
       huge_(std::min(job.target.size.width, job.target.size.height) <= 2),
       source_is_full_(job.source.parameterization.full_charts()) {}
+
+bool TexelSamples::sees_many(int chart, int x, int y) const {
+  if (source_is_full_ || !job_.source_is_whole) return false;
+  const Footprint footprint = footprint_at(job_.source, job_.target, job_.to_source, chart, x + 0.5, y + 0.5);
+  constexpr double kMany = 6;
+  return std::max(footprint.right_length(), footprint.down_length()) > kMany;
+}
 
 bool TexelSamples::is_outside(int chart, int x, int y) const {
   if (job_.target_is_full) return false;
@@ -42,9 +51,7 @@ void TexelSamples::leave(int chart, int x, int y, Batch& batch, float* out) cons
 void TexelSamples::sample(int chart, int x, int y, Batch& batch, std::vector<double>& sum, float* out) const {
   const float across = 1.0f / static_cast<float>(job_.target.size.width),
               down = 1.0f / static_cast<float>(job_.target.size.height);
-  // About the direction that a whole rim shows, very many texels of the source are seen in few of the
-  // target's.
-  const int side = huge_ || (!source_is_full_ && job_.source_is_whole) ? kManySamples : kSamples;
+  const int side = huge_ || sees_many(chart, x, y) ? kManySamples : kSamples;
   const float step = 1.0f / static_cast<float>(side);
   const std::size_t channels = job_.channels();
   sum.assign(channels, 0.0);

@@ -23,6 +23,9 @@ class TexelSamples {
   void sample(int chart, int x, int y, Batch& batch, std::vector<double>& sum, float* out) const;
 
  private:
+  /// Whether a texel shows the direction of a whole rim of the source, and so very many texels.
+  bool sees_many(int chart, int x, int y) const;
+
   const ResampleJob& job_;
   const LevelView view_;
   const bool huge_;
