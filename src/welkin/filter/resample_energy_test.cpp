@@ -136,8 +136,8 @@ TEST_P(ResampleEnergyTest, AConstantStaysConstant) {
   Map source = make_map(GetParam(), 40);
   fill(source, 0.7f);
   fill_borders(source);
-  for (const char* name : {"latlong", "cube", "octahedral", "sphere", "healpix", "fisheye-equidistant"}) {
-    for (const int size : {11, 60}) {
+  for (const char* name : {"latlong", "cube", "sphere"}) {
+    for (const int size : {11, 43}) {
       Map target = make_map(name, size);
       ResampleOptions options = with(Filter::automatic);
       options.rotation = rotation_from_yaw_pitch_roll(31, 17, -8);
