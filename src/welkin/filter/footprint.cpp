@@ -105,7 +105,7 @@ double narrow_footprint(const Map& source, const MapFrame& target, const Matrix3
 }
 
 bool is_reconstructed(const Map& source, const MapFrame& target, const Matrix3& to_source) {
-  return narrow_footprint(source, target, to_source) < 2.5;
+  return narrow_footprint(source, target, to_source) < 1.75;
 }
 
 }  // namespace welkin

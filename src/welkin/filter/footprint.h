@@ -31,7 +31,7 @@ Footprint footprint_at(const Map& source, const MapFrame& target, const Matrix3&
 double narrow_footprint(const Map& source, const MapFrame& target, const Matrix3& to_source);
 
 /// Whether Filter::automatic reconstructs what is within a source's texels: while footprints are narrower
-/// than 2½ of them. Beyond, it takes texels as they are. For all of a target alike, or light would
+/// than 1¾ of them. Beyond, it takes texels as they are. For all of a target alike, or light would
 /// be lost between two texels that share one of the source's.
 bool is_reconstructed(const Map& source, const MapFrame& target, const Matrix3& to_source);
 
