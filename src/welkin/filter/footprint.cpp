@@ -104,8 +104,12 @@ double narrow_footprint(const Map& source, const MapFrame& target, const Matrix3
   return HUGE_VAL;
 }
 
+bool is_reconstructed(double narrow_side) {
+  return narrow_side < 1.75;
+}
+
 bool is_reconstructed(const Map& source, const MapFrame& target, const Matrix3& to_source) {
-  return narrow_footprint(source, target, to_source) < 1.75;
+  return is_reconstructed(narrow_footprint(source, target, to_source));
 }
 
 }  // namespace welkin

@@ -33,6 +33,7 @@ double narrow_footprint(const Map& source, const MapFrame& target, const Matrix3
 /// Whether Filter::automatic reconstructs what is within a source's texels: while footprints are narrower
 /// than 1¾ of them. Beyond, it takes texels as they are. For all of a target alike, or light would
 /// be lost between two texels that share one of the source's.
+bool is_reconstructed(double narrow_side);
 bool is_reconstructed(const Map& source, const MapFrame& target, const Matrix3& to_source);
 
 }  // namespace welkin

@@ -4,6 +4,29 @@
 #include <cmath>
 
 namespace welkin {
+namespace {
+
+/// Cuts an edge at whole numbers of its first coordinate: body(whole number below, from a, from b, to a, to
+/// b) for each piece. An edge that starts on one goes on into what lies ahead.
+template <class Body>
+void walk(double from_a, double from_b, double to_a, double to_b, const Body& body) {
+  const double slope = from_a == to_a ? 0 : (to_b - from_b) / (to_a - from_a);
+  const int step = to_a >= from_a ? 1 : -1;
+  int cell = static_cast<int>(step > 0 ? std::floor(from_a) : std::ceil(from_a) - 1);
+  double a = from_a, b = from_b;
+  for (;;) {
+    const double border = step > 0 ? cell + 1 : cell;
+    const bool last = step > 0 ? to_a <= border : to_a >= border;
+    const double next_a = last ? to_a : border, next_b = last ? to_b : from_b + slope * (border - from_a);
+    body(cell, a, b, next_a, next_b);
+    if (last) return;
+    a = next_a;
+    b = next_b;
+    cell += step;
+  }
+}
+
+}  // namespace
 
 void Overlap::start(int x, int y, int width, int height) {
   x_ = x;
@@ -23,46 +46,20 @@ double Overlap::stretched(int row, double within) const {
 }
 
 void Overlap::add_edge(double from_x, double from_y, double to_x, double to_y) {
-  from_x -= x_;
-  to_x -= x_;
-  from_y -= y_;
-  to_y -= y_;
   if (from_y == to_y) return;
-  const double slope = (to_x - from_x) / (to_y - from_y);
-  const int step = to_y > from_y ? 1 : -1;
-  // The row in which it starts: an edge that starts on a border goes into the row ahead.
-  int row = static_cast<int>(step > 0 ? std::floor(from_y) : std::ceil(from_y) - 1);
-  double x = from_x, y = from_y;
-  for (;;) {
-    const double border = step > 0 ? row + 1 : row;
-    const bool last = step > 0 ? to_y <= border : to_y >= border;
-    const double next_y = last ? to_y : border, next_x = last ? to_x : from_x + slope * (border - from_y);
-    const int inside = std::clamp(row, 0, height_ - 1);
-    add_row(inside, x, stretched(inside, std::clamp(y - inside, 0.0, 1.0)), next_x,
-            stretched(inside, std::clamp(next_y - inside, 0.0, 1.0)));
-    if (last) return;
-    x = next_x;
-    y = next_y;
-    row += step;
-  }
+  walk(from_y - y_, from_x - x_, to_y - y_, to_x - x_,
+       [&](int row, double y, double x, double next_y, double next_x) {
+         const int inside = std::clamp(row, 0, height_ - 1);
+         add_row(inside, x, stretched(inside, std::clamp(y - inside, 0.0, 1.0)), next_x,
+                 stretched(inside, std::clamp(next_y - inside, 0.0, 1.0)));
+       });
 }
 
 void Overlap::add_row(int row, double from_x, double from_y, double to_x, double to_y) {
   if (from_y == to_y) return;
-  const double slope = from_x == to_x ? 0 : (to_y - from_y) / (to_x - from_x);
-  const int step = to_x >= from_x ? 1 : -1;
-  int column = static_cast<int>(step > 0 ? std::floor(from_x) : std::ceil(from_x) - 1);
-  double x = from_x, y = from_y;
-  for (;;) {
-    const double border = step > 0 ? column + 1 : column;
-    const bool last = step > 0 ? to_x <= border : to_x >= border;
-    const double next_x = last ? to_x : border, next_y = last ? to_y : from_y + slope * (border - from_x);
+  walk(from_x, from_y, to_x, to_y, [&](int column, double x, double y, double next_x, double next_y) {
     add_cell(std::clamp(column, 0, width_ - 1), row, x, y, next_x, next_y);
-    if (last) return;
-    x = next_x;
-    y = next_y;
-    column += step;
-  }
+  });
 }
 
 void Overlap::add_cell(int column, int row, double from_x, double from_y, double to_x, double to_y) {

@@ -2,11 +2,9 @@
 // their corners and what they see of the source, and each is made in the way that these allow.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,10 +34,10 @@ class MeanMaker final : public TexelMaker {
  public:
   explicit MeanMaker(ResampleJob whole)
       : job_(std::move(whole)),
-        level_(level_for(job_, coarse_)),
+        narrow_(narrow_footprint(job_.source, job_.target, job_.to_source)),
+        level_(level_for(job_.source, narrow_, coarse_)),
         view_(view_of(level_)),
-        means_(job_.source.parameterization, level_,
-               is_reconstructed(job_.source, job_.target, job_.to_source), !job_.options.allow_ringing),
+        means_(job_.source.parameterization, level_, is_reconstructed(narrow_), !job_.options.allow_ringing),
         samples_(job_, view_),
         outline_(job_.source.parameterization, {view_.width, view_.height}, job_.target, job_.to_source) {}
 
@@ -82,18 +80,17 @@ class MeanMaker final : public TexelMaker {
     std::vector<float> means;
   };
 
-  static const Level& level_for(const ResampleJob& job, std::vector<Level>& coarse) {
+  static const Level& level_for(const Map& source, double narrow, std::vector<Level>& coarse) {
     // All texels are read from one level: then a source texel's light is shared among them and not counted
     // twice, nor left out.
-    double narrow = narrow_footprint(job.source, job.target, job.to_source);
     int level = 0;
     while (narrow >= 2 * kNarrowest && std::isfinite(narrow)) {
       narrow /= 2;
       ++level;
     }
-    if (level == 0) return job.source.level;
-    coarse = make_pyramid(job.source, level);
-    return coarse.empty() ? job.source.level : coarse.back();
+    if (level == 0) return source.level;
+    coarse = make_pyramid(source, level);
+    return coarse.empty() ? source.level : coarse.back();
   }
 
   void make(int chart, int x, int y, ImageView<float> out) const {
@@ -185,8 +182,9 @@ class MeanMaker final : public TexelMaker {
       const int top = std::max(part.y, asked.y),
                 bottom = std::min(part.y + part.height, asked.y + asked.height);
       if (left >= right || top >= bottom) return;
-      const bool by_points = reconstruct(part, maker, work);
-      if (!by_points && (part.width > kSmallestBlock || part.height > kSmallestBlock)) {
+      const bool reconstructed = maker.means_.reconstructed();
+      const bool by_points = reconstructed && reconstruct(part, maker, work);
+      if (reconstructed && !by_points && (part.width > kSmallestBlock || part.height > kSmallestBlock)) {
         const int half_x = (part.width + 1) / 2, half_y = (part.height + 1) / 2;
         for (const int k : {0, 1, 2, 3}) {
           const int px = k % 2 * half_x, py = k / 2 * half_y;
@@ -283,7 +281,7 @@ class MeanMaker final : public TexelMaker {
           longest = std::max({longest, work.across[j][i], work.down[j][i]});
         }
       }
-      if (chart_seen < 0 || !maker.means_.reconstructed()) return false;
+      if (chart_seen < 0) return false;
       const int left = std::clamp(static_cast<int>(std::floor(low_x)), 0, maker.view_.width - 1),
                 right = std::clamp(static_cast<int>(std::floor(high_x)), 0, maker.view_.width - 1);
       const int top = std::clamp(static_cast<int>(std::floor(low_y)), 0, maker.view_.height - 1),
@@ -401,6 +399,7 @@ class MeanMaker final : public TexelMaker {
   }
 
   const ResampleJob job_;
+  const double narrow_;  ///< side of footprints, source texels
   std::vector<Level> coarse_;
   const Level& level_;  ///< what is read
   const LevelView view_;

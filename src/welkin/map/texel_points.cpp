@@ -175,6 +175,21 @@ struct Batch {
   alignas(64) float u[kBatch], v[kBatch], value[kBatch];
 };
 
+/// Adds share · density at the batch's positions to `sums`, and 1 to `valid` where one is valid; either may
+/// be null. Returns how many texels the batch has.
+std::size_t test_row(const AnyParameterization& p, Batch batch, int chart, float* sums, float share,
+                     float* valid) {
+  if (sums != nullptr) {
+    p.kernels().density(p.self(), chart, batch.u, batch.v, batch.value, batch.count);
+    for (std::size_t i = 0; i < batch.count; ++i) sums[i] += share * batch.value[i];
+  }
+  if (valid != nullptr) {
+    p.kernels().valid(p.self(), chart, batch.u, batch.v, batch.value, batch.count);
+    for (std::size_t i = 0; i < batch.count; ++i) valid[i] += batch.value[i] > 0 ? 1.0f : 0.0f;
+  }
+  return batch.count;
+}
+
 }  // namespace
 
 ChartCell ChartCell::part(int x, int columns, int y, int rows) const {
@@ -219,16 +234,9 @@ std::vector<TexelKind> texel_kinds(const AnyParameterization& p, ChartSize size,
     float points = 0;
     std::size_t count = 0;
     const auto test = [&](double across, double down, float* sums, float share) {
-      Batch batch(size, row, static_cast<int>(from), across, down);
-      count = batch.count;
-      if (sums != nullptr) {
-        p.kernels().density(p.self(), chart, batch.u, batch.v, batch.value, count);
-        for (std::size_t i = 0; i < count; ++i) sums[i] += share * batch.value[i];
-      }
-      if (full) return;
-      p.kernels().valid(p.self(), chart, batch.u, batch.v, batch.value, count);
-      for (std::size_t i = 0; i < count; ++i) valid[i] += batch.value[i] > 0 ? 1.0f : 0.0f;
-      points += 1;
+      count = test_row(p, Batch(size, row, static_cast<int>(from), across, down), chart, sums, share,
+                       full ? nullptr : valid);
+      if (!full) points += 1;
     };
     for (int k = 0; k < 4; ++k) {
       if (!full) test(k % 2, k / 2, nullptr, 0);
@@ -291,16 +299,8 @@ void texel_solid_angles(const AnyParameterization& p, int width, int height, int
     std::size_t count = 0;
     float tests = 0;
     const auto test = [&](double across, double down, float* sums, float share) {
-      Batch batch(size, row, from, across, down);
-      count = batch.count;
-      if (sums != nullptr) {
-        p.kernels().density(p.self(), chart, batch.u, batch.v, batch.value, count);
-        for (std::size_t i = 0; i < count; ++i) sums[i] += share * batch.value[i];
-      }
-      if (full) return;
-      p.kernels().valid(p.self(), chart, batch.u, batch.v, batch.value, count);
-      for (std::size_t i = 0; i < count; ++i) valid[i] += batch.value[i] > 0 ? 1.0f : 0.0f;
-      tests += 1;
+      count = test_row(p, Batch(size, row, from, across, down), chart, sums, share, full ? nullptr : valid);
+      if (!full) tests += 1;
     };
     test(0.5, 0.5, centre, 1);
     std::copy(std::begin(valid), std::end(valid), std::begin(shown));
