@@ -173,6 +173,7 @@ MapReader ReadFlags::open_unknown(const std::string& path) const {
   ReadMapOptions options = parse();
   options.faces.clear();
   MapReader reader(path, options);
+  if (warn) print_warnings(path, reader.info().image.warnings);
   if (!reader.info().shape) return reader;
   if (!convention.empty()) {
     reader.set_orientation(

@@ -66,6 +66,7 @@ struct ReadFlags {
   std::string from, faces, convention, colour = "auto", channels;
   int part = 0;
   std::optional<int> level;
+  bool warn = true;  ///< on stderr of what the files' readers warn of
 
   void add(CLI::App& command);
   /// `--level`, for commands that read one level of a file with several.

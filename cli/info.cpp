@@ -52,6 +52,7 @@ ordered_json header_of(const std::string& path, const MapFileInfo& info) {
                       {"parts", parts},
                       {"colour", info.image.colour == io::Colour::srgb ? "srgb" : "linear"},
                       {"notes", info.image.notes},
+                      {"warnings", info.image.warnings},
                       {"attributes", info.image.attributes}};
   if (is_texture(info.image)) {
     report["texture"] = {
@@ -149,6 +150,8 @@ void print_header(const std::string& path, const MapFileInfo& info) {
                printable(channels), name_of(part.type), part.compression);
   }
   for (const std::string& note : info.image.notes) fmt::print("  note              {}\n", note);
+  for (const std::string& warning : info.image.warnings)
+    fmt::print("  warning           {}\n", printable(warning));
   for (const auto& [key, value] : info.image.attributes) {
     fmt::print("  {:<17} {}\n", printable(key), printable(value.substr(0, value.find('\n'))));
   }
@@ -252,6 +255,7 @@ void add_info(CLI::App& app) {
   command->add_option("FILE", info->files, "Maps to read")->required();
   command->add_flag("--header", info->header, "Only what the header says; read no pixels");
   command->add_flag("--json", info->json, "Machine-readable, on standard output");
+  info->read.warn = false;  // they are in the report
   info->read.add(*command);
   info->read.add_level(*command, "Level to measure. Default: the finest, and every level's mean");
   command->callback([info] { info->run(); });

@@ -54,6 +54,8 @@ int run(int argc, char** argv) {
   app.add_option("-j,--threads", threads, "Threads to use (0: one per core)")->check(CLI::Range(0, 1024));
   app.add_option("--progress", progress, "Progress bar: auto (on a terminal), always, never")
       ->check(CLI::IsMember({"auto", "always", "never"}));
+  bool quiet = false;
+  app.add_flag("-q,--quiet", quiet, "Print errors only on stderr, no warnings");
   cli::add_info(app);
   cli::add_convert(app);
   cli::add_bake(app);
@@ -73,6 +75,7 @@ int run(int argc, char** argv) {
       limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(threads));
     }
+    cli::set_quiet(quiet);
     cli::set_progress_mode(progress == "always"  ? cli::ProgressMode::always
                            : progress == "never" ? cli::ProgressMode::never
                                                  : cli::ProgressMode::automatic);

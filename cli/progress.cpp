@@ -7,13 +7,17 @@
 #include <cstdio>
 #include <memory>
 #include <mutex>
+#include <set>
 
+#include "command.h"
 #include "welkin/io/process.h"
 
 namespace welkin::cli {
 namespace {
 
 ProgressMode progress_mode = ProgressMode::automatic;
+bool quiet = false;
+std::set<std::string> warned;
 std::atomic<bool> bar_shown{false};
 
 /// One line, redrawn at most ten times a second.
@@ -63,6 +67,16 @@ Monitor progress_monitor(std::string what) {
 
 void end_progress() {
   if (bar_shown.exchange(false)) print_message("\n");
+}
+
+void print_warnings(const std::string& path, const std::vector<std::string>& warnings) {
+  if (quiet || !warned.insert(path).second) return;
+  for (const std::string& warning : warnings)
+    print_message(fmt::format("welkin: {}: {}\n", printable(path), printable(warning)));
+}
+
+void set_quiet(bool is_quiet) {
+  quiet = is_quiet;
 }
 
 }  // namespace welkin::cli

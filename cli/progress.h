@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "welkin/base/monitor.h"
 
@@ -8,6 +9,11 @@ namespace welkin::cli {
 
 /// Prints on stderr. Errors of writing there are ignored.
 void print_message(const std::string& text);
+
+/// Prints what reading a file changed, guessed or left undone, once for each file; not when set_quiet says
+/// so.
+void print_warnings(const std::string& path, const std::vector<std::string>& warnings);
+void set_quiet(bool quiet);
 
 enum class ProgressMode { automatic, always, never };
 

@@ -2,6 +2,7 @@
 
 #include "welkin/io/byte_sink.h"
 #include "welkin/io/capabilities.h"
+#include "welkin/io/declared.h"
 #include "welkin/io/image_file.h"
 
 /// What one file format provides; formats.cpp lists them all. A new format is one folder and one line there.
@@ -13,10 +14,19 @@ struct Source {
   ReadOptions options;
 };
 
+/// A format's reader. Its pictures are as they lie in the file; `declared` says what is still to be done.
+class FormatReader : public Reader {
+ public:
+  const Declared& declared() const { return declared_; }
+
+ protected:
+  Declared declared_;
+};
+
 struct Format {
   Capabilities capabilities;
   bool (*matches)(std::span<const std::byte> bytes);  ///< by magic number
-  std::unique_ptr<Reader> (*open)(const Source& source);
+  std::unique_ptr<FormatReader> (*open)(const Source& source);
   /// The request lies within the capabilities. Throws Error without the file's name, which the caller
   /// adds.
   WriteReport (*write)(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);

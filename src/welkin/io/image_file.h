@@ -57,8 +57,11 @@ struct FileInfo {
   /// Text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
   std::map<std::string, std::string> attributes;
   std::optional<std::string> envmap;  ///< EXR's standard `envmap` attribute: `latlong` or `cube`
-  std::vector<std::string> notes;  ///< what a person would like to know: tiles, data window, orientation…
-  std::uint64_t bytes = 0;         ///< of the file
+  std::vector<std::string> notes;     ///< what a person would like to know: tiles, interlacing…
+  /// What reading changes, guesses or leaves undone, so that the picture may not be the one that is meant.
+  /// Commands print these on stderr.
+  std::vector<std::string> warnings;
+  std::uint64_t bytes = 0;  ///< of the file
 };
 
 /// How a file is read.

@@ -87,7 +87,7 @@ std::vector<std::string> notes_on(const Part& part, int levels) {
   return notes;
 }
 
-class ExrReader final : public Reader {
+class ExrReader final : public FormatReader {
  public:
   explicit ExrReader(const Source& source) : bytes_(source.bytes), name_(source.name), file_(parse(source)) {
     info_.format = "exr";
@@ -242,7 +242,7 @@ class ExrReader final : public Reader {
   File file_;
 };
 
-std::unique_ptr<Reader> open_exr(const Source& source) {
+std::unique_ptr<FormatReader> open_exr(const Source& source) {
   return std::make_unique<ExrReader>(source);
 }
 

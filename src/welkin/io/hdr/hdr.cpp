@@ -30,7 +30,7 @@ struct Batch {
   std::vector<Line> lines;
 };
 
-class HdrReader : public Reader {
+class HdrReader : public FormatReader {
  public:
   explicit HdrReader(const Source& source) : source_(source), header_(parse_hdr_header(source)) {
     const std::size_t held = source.bytes.size() - header_.pixels_at;
@@ -151,7 +151,7 @@ void HdrReader::decode(std::size_t part, std::span<const int> channels, ImageVie
                              tbb::make_filter<Batch, void>(tbb::filter_mode::parallel, decode_lines));
 }
 
-std::unique_ptr<Reader> open_hdr(const Source& source) {
+std::unique_ptr<FormatReader> open_hdr(const Source& source) {
   return std::make_unique<HdrReader>(source);
 }
 

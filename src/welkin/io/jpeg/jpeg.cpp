@@ -107,7 +107,7 @@ class Decoder {
   jpeg_decompress_struct codec_{};
 };
 
-class JpegReader : public Reader {
+class JpegReader : public FormatReader {
  public:
   explicit JpegReader(const Source& source) : source_(source) {
     Decoder decoder(source_);
@@ -195,7 +195,7 @@ class JpegReader : public Reader {
 
 }  // namespace
 
-std::unique_ptr<Reader> open_jpeg(const Source& source) {
+std::unique_ptr<FormatReader> open_jpeg(const Source& source) {
   return std::make_unique<JpegReader>(source);
 }
 

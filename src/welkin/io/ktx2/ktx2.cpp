@@ -30,7 +30,7 @@ std::string picture_name(const Header& header, int level, int layer, int face) {
   return name;
 }
 
-class Ktx2Reader final : public Reader {
+class Ktx2Reader final : public FormatReader {
  public:
   explicit Ktx2Reader(const Source& source) : source_(source), header_(parse_header(source)) {
     info_.format = "ktx2";
@@ -172,7 +172,7 @@ void Ktx2Reader::decode(std::size_t part_index, std::span<const int> channels, I
   });
 }
 
-std::unique_ptr<Reader> open_ktx2(const Source& source) {
+std::unique_ptr<FormatReader> open_ktx2(const Source& source) {
   return std::make_unique<Ktx2Reader>(source);
 }
 

@@ -38,7 +38,7 @@ bool matches(std::span<const std::byte> bytes) {
   return text[0] == 'P' && (text[1] == 'F' || text[1] == 'f') && is_space(text[2]);
 }
 
-class PfmReader : public Reader {
+class PfmReader : public FormatReader {
  public:
   explicit PfmReader(const Source& source) : source_(source) {
     const std::string identifier = next_word();
@@ -143,7 +143,7 @@ class PfmReader : public Reader {
   std::endian order_ = std::endian::little;
 };
 
-std::unique_ptr<Reader> open_pfm(const Source& source) {
+std::unique_ptr<FormatReader> open_pfm(const Source& source) {
   return std::make_unique<PfmReader>(source);
 }
 

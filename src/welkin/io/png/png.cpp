@@ -131,7 +131,7 @@ std::string names_of_colour_type(int colour_type) {
   return (colour_type & PNG_COLOR_MASK_COLOR) != 0 ? "colour" : "grey";
 }
 
-class PngReader : public Reader {
+class PngReader : public FormatReader {
  public:
   explicit PngReader(const Source& source) : source_(source) {
     check_chunks(source_);
@@ -262,7 +262,7 @@ class PngReader : public Reader {
 
 }  // namespace
 
-std::unique_ptr<Reader> open_png(const Source& source) {
+std::unique_ptr<FormatReader> open_png(const Source& source) {
   return std::make_unique<PngReader>(source);
 }
 

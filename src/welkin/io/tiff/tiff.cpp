@@ -68,7 +68,7 @@ struct Block {
   int x, y, width, height;
 };
 
-class TiffReader : public Reader {
+class TiffReader : public FormatReader {
  public:
   explicit TiffReader(const Source& source) : source_(source), memory_{source.bytes} {
     tiff_ = open_tiff_stream(memory_.stream(), "r", source.options.max_bytes, failure_);
@@ -243,7 +243,7 @@ class TiffReader : public Reader {
 
 }  // namespace
 
-std::unique_ptr<Reader> open_tiff(const Source& source) {
+std::unique_ptr<FormatReader> open_tiff(const Source& source) {
   return std::make_unique<TiffReader>(source);
 }
 

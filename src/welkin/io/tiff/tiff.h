@@ -7,7 +7,7 @@ namespace welkin::io {
 /// TIFF and BigTIFF: grey, RGB and any number of further samples of 8, 16 and 32-bit integers, half, float
 /// and double, in strips or tiles, contiguous or planar, with any compression libtiff has; LogLuv as linear
 /// RGB; palettes, bilevel, CMYK and Lab as 8-bit RGB. Each directory is a part.
-std::unique_ptr<Reader> open_tiff(const Source& source);
+std::unique_ptr<FormatReader> open_tiff(const Source& source);
 
 /// Writes float by default, in strips, compressed by `zip` (`none`, `lzw`), one directory per part; BigTIFF
 /// when the pixels could pass 4 GiB. Attributes are lines name=value of the first directory's

@@ -34,7 +34,7 @@ std::string text_of(VP8StatusCode status) {
   }
 }
 
-class WebpReader : public Reader {
+class WebpReader : public FormatReader {
  public:
   explicit WebpReader(const Source& source) : source_(source) {
     WebPBitstreamFeatures features;
@@ -85,7 +85,7 @@ class WebpReader : public Reader {
   Source source_;
 };
 
-std::unique_ptr<Reader> open_webp(const Source& source) {
+std::unique_ptr<FormatReader> open_webp(const Source& source) {
   return std::make_unique<WebpReader>(source);
 }
 
