@@ -120,6 +120,11 @@ void ReadFlags::add(CLI::App& command) {
                      "World of the input: three.js, blender… (`welkin list conventions`)");
   command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb")
       ->capture_default_str();
+  command
+      .add_option("--primaries", primaries,
+                  "Colours of other primaries than BT.709's: convert them, or keep them as they are")
+      ->check(CLI::IsMember({"convert", "keep"}))
+      ->capture_default_str();
   command.add_option("--channels", channels,
                      "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
   command
@@ -152,6 +157,7 @@ ReadMapOptions ReadFlags::parse() const {
   options.border = border;
   options.part = static_cast<std::size_t>(part);
   options.image.colour = parse_colour("--colour", colour);
+  options.image.keep_primaries = primaries == "keep";
   if (!convention.empty())
     parse_option("--from-convention", [&] { return convention_from_name(convention); });
   return options;

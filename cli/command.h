@@ -63,7 +63,7 @@ Matrix3 parse_rotation(std::string_view option, const std::string& text);
 /// Options of every command that reads a map.
 struct ReadFlags {
   int border = 0;
-  std::string from, faces, convention, colour = "auto", channels;
+  std::string from, faces, convention, colour = "auto", primaries = "convert", channels;
   int part = 0;
   std::optional<int> level;
   bool warn = true;  ///< on stderr of what the files' readers warn of

@@ -62,8 +62,9 @@ WriteReport operator+(const WriteReport& a, const WriteReport& b) {
   return {a.above + b.above, a.below + b.below, a.not_finite + b.not_finite};
 }
 
-PixelEncoder::PixelEncoder(PixelType type, std::vector<int> order, std::vector<bool> srgb)
-    : type_(type), order_(std::move(order)), srgb_(std::move(srgb)) {
+PixelEncoder::PixelEncoder(PixelType type, std::vector<int> order, std::vector<bool> srgb,
+                           std::optional<int> alpha)
+    : type_(type), order_(std::move(order)), srgb_(std::move(srgb)), alpha_(alpha) {
   assert(order_.size() == srgb_.size());
 }
 
@@ -72,7 +73,21 @@ std::size_t PixelEncoder::pixel_bytes() const {
 }
 
 void PixelEncoder::encode(const float* in, int image_channels, int count, std::byte* stored,
-                          WriteReport& total) const {
+                          WriteReport& report) const {
+  if (!alpha_) return encode_as_they_are(in, image_channels, count, stored, report);
+  std::vector<float> straight(in, in + static_cast<std::ptrdiff_t>(count) * image_channels);
+  for (float* pixel = straight.data(); pixel < straight.data() + straight.size(); pixel += image_channels) {
+    const float alpha = pixel[*alpha_];
+    if (!(alpha > 0)) continue;
+    for (int c = 0; c < image_channels; ++c) {
+      if (c != *alpha_) pixel[c] /= alpha;
+    }
+  }
+  encode_as_they_are(straight.data(), image_channels, count, stored, report);
+}
+
+void PixelEncoder::encode_as_they_are(const float* in, int image_channels, int count, std::byte* stored,
+                                      WriteReport& total) const {
   WriteReport uncounted;
   for (std::size_t k = 0; k < order_.size(); ++k) {
     const auto own = order_.begin() + static_cast<std::ptrdiff_t>(k);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "welkin/io/image_file.h"
@@ -16,8 +17,10 @@ namespace welkin::io {
 class PixelEncoder {
  public:
   /// Any type but the packed ones. Stored channel k holds the image's channel order[k], sRGB encoded where
-  /// srgb[k]. One that is stored more than once (grey as R G B) is counted once.
-  PixelEncoder(PixelType type, std::vector<int> order, std::vector<bool> srgb);
+  /// srgb[k]. One that is stored more than once (grey as R G B) is counted once. Where `alpha` is a channel
+  /// of the image, the others are divided by it first: images have associated alpha, these files straight
+  /// one. What has no alpha but shines keeps its colour.
+  PixelEncoder(PixelType type, std::vector<int> order, std::vector<bool> srgb, std::optional<int> alpha = {});
 
   std::size_t pixel_bytes() const;
 
@@ -29,9 +32,13 @@ class PixelEncoder {
   WriteReport encode_rows(ImageView<const float> image, std::byte* stored, std::size_t stride) const;
 
  private:
+  void encode_as_they_are(const float* in, int image_channels, int count, std::byte* stored,
+                          WriteReport& report) const;
+
   PixelType type_;
   std::vector<int> order_;
   std::vector<bool> srgb_;
+  std::optional<int> alpha_;
 };
 
 WriteReport operator+(const WriteReport& a, const WriteReport& b);

@@ -18,6 +18,9 @@ struct Source {
 class FormatReader : public Reader {
  public:
   const Declared& declared() const { return declared_; }
+  /// What `decode` undoes from now on; FileInfo says so.
+  void set_colour(Colour colour) { info_.colour = colour; }
+  void set_info(FileInfo info) { info_ = std::move(info); }
 
  protected:
   Declared declared_;

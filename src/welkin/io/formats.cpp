@@ -6,6 +6,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/format.h"
+#include "welkin/io/interpret.h"
 #include "welkin/io/output_file.h"
 
 namespace welkin::io {
@@ -102,7 +103,7 @@ void check_size(const Source& source, std::uint64_t width, std::uint64_t height,
 std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name, const ReadOptions& options) {
   if (bytes.empty()) throw Error(ErrorKind::damaged, name, "the file is empty");
   for (const Format& format : formats()) {
-    if (format.matches(bytes)) return format.open({bytes, std::move(name), options});
+    if (format.matches(bytes)) return interpret(format.open({bytes, std::move(name), options}), options);
   }
   std::vector<std::string> names;
   for (const Format& format : formats()) names.push_back(format.capabilities.format);

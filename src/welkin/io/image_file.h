@@ -23,7 +23,8 @@
 namespace welkin::io {
 
 /// The transfer function of stored colour values. Linear is radiance; sRGB is IEC 61966-2-1, made linear on
-/// reading. Alpha is always linear.
+/// reading. Alpha is always linear. Others (PQ, HLG, powers, ICC profiles) are undone where a file declares
+/// them.
 enum class Colour {
   automatic,  ///< by the format: see ReadOptions and WriteOptions
   linear,     ///< stored values are proportional to radiance
@@ -66,9 +67,11 @@ struct FileInfo {
 
 /// How a file is read.
 struct ReadOptions {
-  /// The transfer function of stored values. `automatic`: what the file declares, else sRGB for integers of 8
-  /// and 16 bits, linear for all others.
+  /// The transfer function of stored values. `automatic`: what the file declares, by its format, its code
+  /// points or its ICC profile, else sRGB for integers of 8 and 16 bits, linear for all others.
   Colour colour = Colour::automatic;
+  /// Colours stay those of the primaries that the file declares; otherwise they are converted to BT.709's.
+  bool keep_primaries = false;
   /// Images whose decoded floats would need more bytes are refused: Error (too_large).
   std::uint64_t max_bytes = std::uint64_t{32} << 30;
 };
@@ -86,10 +89,12 @@ class WELKIN_API Reader {
   const FileInfo& info() const { return info_; }
 
   /// Decodes the part's channels numbered `channels` (indices into PartInfo::channels, one per channel of
-  /// `out`) into `out`, which has the part's width and height and any row stride. Colour is linear
-  /// afterwards. Non-finite and negative values are kept. EXR data windows are placed inside the display
-  /// window; texels outside it are 0. Uses the calling thread and TBB's workers.
-  /// Throws also Error (bad_request) for a part or a channel that there isn't, and for another size.
+  /// `out`) into `out`, which has the part's width and height and any row stride. Pictures stand upright.
+  /// Colour is linear afterwards, and multiplied by alpha where that is read too (associated, as EXR's); what
+  /// a format stores straight is as it is where alpha isn't read. Non-finite and negative values are kept.
+  /// EXR data windows are placed inside the display window; texels outside it are 0. Uses the calling thread
+  /// and TBB's workers. Throws also Error (bad_request) for a part or a channel that there isn't, and for
+  /// another size.
   void read(std::size_t part, std::span<const int> channels, ImageView<float> out);
 
  protected:

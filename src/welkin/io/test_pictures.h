@@ -54,13 +54,18 @@ inline Bytes file_bytes(const std::filesystem::path& path) {
   return bytes_of(std::string(std::istreambuf_iterator<char>(stream), {}));
 }
 
-/// Values in [0, 1), no two pixels alike.
+/// Values in [0, 1), no two pixels alike; of two or four channels, the last is alpha and the others are
+/// multiplied by it.
 inline Image noise(int width, int height, int channels, unsigned seed = 1) {
   Image image(width, height, channels);
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> uniform(0, 1);
   for (int y = 0; y < height; ++y) {
     for (int i = 0; i < width * channels; ++i) image.view().row(y)[i] = uniform(random);
+    for (int x = 0; channels % 2 == 0 && x < width; ++x) {
+      float* const pixel = image.view().at(x, y);
+      for (int c = 0; c + 1 < channels; ++c) pixel[c] *= pixel[channels - 1];
+    }
   }
   return image;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 #include <cstring>
 
 #include "welkin/base/error.h"
@@ -73,6 +74,7 @@ class Decoder {
     codec_.progress = &progress_;
     constexpr unsigned kWholeMarker = 0xffff;
     jpeg_save_markers(&codec_, JPEG_APP0 + 1, kWholeMarker);
+    jpeg_save_markers(&codec_, JPEG_APP0 + 2, kWholeMarker);
     jpeg_save_markers(&codec_, JPEG_COM, kWholeMarker);
     jpeg_read_header(&codec_, TRUE);
   }
@@ -147,6 +149,7 @@ class JpegReader : public FormatReader {
     for (jpeg_saved_marker_ptr marker = codec.marker_list; marker != nullptr; marker = marker->next) {
       read_marker(*marker);
     }
+    decoder.guarded([&] { read_profile(decoder.codec()); });
   }
 
   void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
@@ -182,15 +185,30 @@ class JpegReader : public FormatReader {
   void read_marker(const jpeg_marker_struct& marker) {
     const std::string_view text(reinterpret_cast<const char*>(marker.data), marker.data_length);
     if (marker.marker == JPEG_COM) parse_attribute_lines(text, "comment", info_.attributes);
-    constexpr std::string_view kExif("Exif\0\0", 6);
-    if (marker.marker != JPEG_APP0 + 1 || !text.starts_with(kExif)) return;
-    const auto orientation = exif_orientation(std::as_bytes(std::span(text)).subspan(kExif.size()));
-    if (orientation.value_or(1) != 1) {
-      info_.notes.push_back("its Exif orientation of " + std::to_string(*orientation) + " is not applied");
+    constexpr std::string_view kExif("Exif\0\0", 6), kXmp("http://ns.adobe.com/xap/1.0/\0", 29);
+    constexpr std::string_view kProfile("ICC_PROFILE\0", 12);
+    has_profile_ = has_profile_ || (marker.marker == JPEG_APP0 + 2 && text.starts_with(kProfile));
+    if (marker.marker != JPEG_APP0 + 1) return;
+    if (text.starts_with(kExif))
+      declared_.orientation =
+          exif_orientation(std::as_bytes(std::span(text)).subspan(kExif.size())).value_or(1);
+    if (text.starts_with(kXmp)) declared_.xmp = text.substr(kXmp.size());
+  }
+
+  void read_profile(jpeg_decompress_struct& codec) {
+    JOCTET* data = nullptr;
+    unsigned size = 0;
+    if (jpeg_read_icc_profile(&codec, &data, &size) == FALSE) {
+      if (has_profile_) info_.warnings.push_back("its ICC profile is malformed; sRGB is assumed");
+      return;
     }
+    const auto* bytes = reinterpret_cast<const std::byte*>(data);
+    declared_.icc.assign(bytes, bytes + size);
+    std::free(data);
   }
 
   Source source_;
+  bool has_profile_ = false;
 };
 
 }  // namespace

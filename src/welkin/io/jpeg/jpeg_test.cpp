@@ -134,16 +134,33 @@ std::string exif_of(char orientation) {
   return std::string("II*\0\x8\0\0\0\1\0\x12\1\3\0\1\0\0\0", 18) + orientation + std::string(7, '\0');
 }
 
-TEST(Jpeg, ExifOrientationIsNotedAndNotApplied) {
-  const Image image = smooth(20, 8, 3);
-  const Bytes plain = encoded("jpg", image);
-  const std::string body = std::string("Exif\0\0", 6) + exif_of(6);
-  const std::string marker = "\xff\xe1" + std::string(1, '\0') + static_cast<char>(body.size() + 2) + body;
-  Bytes turned = plain;
-  const Bytes inserted = bytes_of(marker);
-  turned.insert(turned.begin() + 2, inserted.begin(), inserted.end());
-  EXPECT_EQ(info_of(turned).notes.at(0), "its Exif orientation of 6 is not applied");
-  expect_same(decoded(turned), decoded(plain));
+/// The JPEG with a marker APP1 or APP2 after its start.
+Bytes with_marker(const Bytes& bytes, char marker, const std::string& body) {
+  const std::size_t size = body.size() + 2;
+  Bytes changed = bytes;
+  const Bytes inserted = bytes_of(std::string("\xff") + marker + static_cast<char>(size >> 8) +
+                                  static_cast<char>(size & 255) + body);
+  changed.insert(changed.begin() + 2, inserted.begin(), inserted.end());
+  return changed;
+}
+
+TEST(Jpeg, ExifOrientationIsApplied) {
+  const Bytes plain = encoded("jpg", smooth(20, 8, 3));
+  const Image image = decoded(plain);
+  const Image turned = decoded(with_marker(plain, '\xe1', std::string("Exif\0\0", 6) + exif_of(3)));
+  ASSERT_EQ(turned.width(), 20);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(turned.at(0, 0)[c], image.at(19, 7)[c]);
+  const Image on_its_side = decoded(with_marker(plain, '\xe1', std::string("Exif\0\0", 6) + exif_of(6)));
+  ASSERT_EQ(on_its_side.width(), 8);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(on_its_side.at(7, 0)[c], image.at(0, 0)[c]);
+}
+
+TEST(Jpeg, AMalformedProfileIsTold) {
+  const Bytes plain = encoded("jpg", smooth(20, 8, 3));
+  EXPECT_EQ(info_of(with_marker(plain, '\xe2', std::string("ICC_PROFILE\0\2\2", 14) + "xyz")).warnings.size(),
+            1u);
+  EXPECT_EQ(info_of(with_marker(plain, '\xe2', std::string("ICC_PROFILE\0\1\1", 14) + "xyz")).warnings.size(),
+            1u);
 }
 
 TEST(Exif, OrientationIsFoundOrNothing) {

@@ -13,9 +13,9 @@ namespace {
 
 /// How far a stored value may be from x.
 float tolerance(PixelType type, float x, float largest_of_texel) {
-  if (type == PixelType::half) return x * 0x1p-11f;
-  if (type == PixelType::rgb9e5) return largest_of_texel * 0x1p-9f;  // half a step of its 9 bits
-  if (type == PixelType::r11g11b10) return x * 0x1p-6f;              // blue's 5 bits
+  if (type == PixelType::half) return std::max(x * 0x1p-11f, 0x1p-25f);  // half a step, also of denormals
+  if (type == PixelType::rgb9e5) return largest_of_texel * 0x1p-9f;      // half a step of its 9 bits
+  if (type == PixelType::r11g11b10) return x * 0x1p-6f;                  // blue's 5 bits
   return 0;
 }
 

@@ -7,7 +7,9 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
+#include "welkin/io/code_points.h"
 #include "welkin/io/decode_pixels.h"
+#include "welkin/io/exif.h"
 #include "welkin/io/png/guard.h"
 
 namespace welkin::io {
@@ -158,6 +160,7 @@ class PngReader : public FormatReader {
     if (interlaced_) info_.notes.push_back("interlaced");
     read_colour(png, info);
     read_text(png, info);
+    read_orientation(png, info);
 
     decoder.expand();
     static const std::vector<std::string> names[] = {
@@ -167,6 +170,7 @@ class PngReader : public FormatReader {
     info_.parts.push_back({"", static_cast<int>(width), static_cast<int>(height), names[channels - 1],
                            png_get_bit_depth(png, info) == 16 ? PixelType::uint16 : PixelType::uint8,
                            "deflate"});
+    if (channels % 2 == 0) declared_.alpha = AlphaKind::straight;
   }
 
   void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
@@ -202,33 +206,49 @@ class PngReader : public FormatReader {
   }
 
  private:
-  /// What the file says of its transfer function, the most specific chunk first (PNG third edition, 4.3).
+  /// What the file says of its colours, the most specific chunk first (PNG third edition, 4.3).
   void read_colour(png_structp png, png_infop info) {
-    constexpr int kTransferLinear = 8, kTransferSrgb = 13;  // ITU-T H.273
-    Colour said = Colour::srgb;
+    info_.colour = Colour::srgb;
     const std::vector<int> code_points = read_cicp(png, info);
-    double gamma = 0;
     if (!code_points.empty()) {
-      const int transfer = code_points[1];
-      said = transfer == kTransferLinear ? Colour::linear : Colour::srgb;
-      if (transfer == kTransferLinear) {
-        info_.notes.push_back("linear by its cICP chunk");
-      } else if (transfer != kTransferSrgb) {
-        info_.notes.push_back("its cICP transfer function " + std::to_string(transfer) +
-                              " (ITU-T H.273) is not known here; sRGB is assumed");
-      }
+      declare_code_points(code_points[0], code_points[1], declared_, info_);
+      if (code_points[3] == 0)
+        info_.warnings.push_back(
+            "its cICP chunk says that black and white are not at the ends of the range; ignored");
     } else if (png_get_valid(png, info, PNG_INFO_iCCP) != 0) {
-      info_.notes.push_back("its ICC profile is ignored; sRGB is assumed");
-    } else if (png_get_valid(png, info, PNG_INFO_sRGB) == 0 && png_get_gAMA(png, info, &gamma) != 0) {
-      constexpr double kSrgbGamma = 0.45455, kTolerance = 0.005;
-      said = std::abs(gamma - 1) < kTolerance ? Colour::linear : Colour::srgb;
-      if (said == Colour::linear) {
+      read_profile(png, info);
+    } else if (png_get_valid(png, info, PNG_INFO_sRGB) == 0) {
+      read_gamma(png, info);
+    }
+    if (source_.options.colour != Colour::automatic) info_.colour = source_.options.colour;
+  }
+
+  void read_profile(png_structp png, png_infop info) {
+    png_charp name = nullptr;
+    int method = 0;
+    png_bytep data = nullptr;
+    png_uint_32 size = 0;
+    if (png_get_iCCP(png, info, &name, &method, &data, &size) == 0) return;
+    const auto* bytes = reinterpret_cast<const std::byte*>(data);
+    declared_.icc.assign(bytes, bytes + size);
+  }
+
+  void read_gamma(png_structp png, png_infop info) {
+    constexpr double kSrgbGamma = 0.45455, kTolerance = 0.005;
+    double gamma = 0;
+    if (png_get_gAMA(png, info, &gamma) != 0) {
+      if (std::abs(gamma - 1) < kTolerance) {
+        info_.colour = Colour::linear;
         info_.notes.push_back("linear by its gAMA chunk");
-      } else if (std::abs(gamma - kSrgbGamma) > kTolerance) {
-        info_.notes.push_back("its gAMA of " + std::to_string(gamma) + " is ignored; sRGB is assumed");
+      } else if (std::abs(gamma - kSrgbGamma) > kTolerance && gamma > 0) {
+        declared_.curve = Curve::gamma;
+        declared_.gamma = 1 / gamma;
       }
     }
-    info_.colour = source_.options.colour == Colour::automatic ? said : source_.options.colour;
+    Chromaticities c{};
+    if (png_get_cHRM(png, info, &c.white[0], &c.white[1], &c.red[0], &c.red[1], &c.green[0], &c.green[1],
+                     &c.blue[0], &c.blue[1]) != 0)
+      declared_.primaries = c;
   }
 
   /// Colour primaries, transfer function, matrix, range; empty when there is no cICP chunk.
@@ -243,6 +263,13 @@ class PngReader : public FormatReader {
     return {};
   }
 
+  void read_orientation(png_structp png, png_infop info) {
+    png_uint_32 size = 0;
+    png_bytep exif = nullptr;
+    if (png_get_eXIf_1(png, info, &size, &exif) != 0)
+      declared_.orientation = exif_orientation(std::as_bytes(std::span(exif, size))).value_or(1);
+  }
+
   void read_text(png_structp png, png_infop info) {
     png_textp texts = nullptr;
     const int count = png_get_text(png, info, &texts, nullptr);
@@ -252,7 +279,12 @@ class PngReader : public FormatReader {
           texts[i].text == nullptr
               ? std::string_view()
               : std::string_view(texts[i].text, utf8 ? texts[i].itxt_length : texts[i].text_length);
-      info_.attributes.emplace(from_latin1(texts[i].key), utf8 ? std::string(value) : from_latin1(value));
+      const std::string key = from_latin1(texts[i].key);
+      if (key == "XML:com.adobe.xmp") {
+        declared_.xmp = value;
+        continue;
+      }
+      info_.attributes.emplace(key, utf8 ? std::string(value) : from_latin1(value));
     }
   }
 

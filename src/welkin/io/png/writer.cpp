@@ -114,7 +114,9 @@ WriteReport write_png(ByteSink& file, std::span<const WritePart> parts, const Wr
   static constexpr int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                          PNG_COLOR_TYPE_RGB_ALPHA};
   const std::size_t kind = order.size() - 1;
-  const PixelEncoder pixels(type, order, srgb_channels(names[kind], colour));
+  const bool alpha = order.size() % 2 == 0;
+  const PixelEncoder pixels(type, order, srgb_channels(names[kind], colour),
+                            alpha ? std::optional(order.back()) : std::nullopt);
   const int depth = static_cast<int>(8 * size_of(type));
 
   Encoder encoder(file);

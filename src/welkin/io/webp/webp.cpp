@@ -1,5 +1,7 @@
 #include <webp/decode.h>
+#include <webp/demux.h>
 #include <webp/encode.h>
+#include <webp/mux.h>
 
 #include <algorithm>
 #include <cassert>
@@ -9,6 +11,7 @@
 #include "welkin/base/error.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/encode_pixels.h"
+#include "welkin/io/exif.h"
 #include "welkin/io/format.h"
 #include "welkin/io/write_choices.h"
 
@@ -51,6 +54,8 @@ class WebpReader : public FormatReader {
     info_.colour = source_.options.colour == Colour::linear ? Colour::linear : Colour::srgb;
     info_.parts.push_back({"", features.width, features.height, std::move(channels), PixelType::uint8,
                            features.format == kLossless ? "lossless" : "lossy"});
+    if (features.has_alpha != 0) declared_.alpha = AlphaKind::straight;
+    read_metadata();
   }
 
   void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
@@ -77,6 +82,32 @@ class WebpReader : public FormatReader {
   }
 
  private:
+  void read_metadata() {
+    const WebPData file{data(), source_.bytes.size()};
+    const std::unique_ptr<WebPDemuxer, decltype(&WebPDemuxDelete)> demuxer(WebPDemux(&file), WebPDemuxDelete);
+    if (demuxer == nullptr) {
+      info_.warnings.push_back("its metadata are malformed, and ignored");
+      return;
+    }
+    const auto chunk = [&](const char* name) {
+      std::span<const std::byte> bytes;
+      WebPChunkIterator found{};
+      if (WebPDemuxGetChunk(demuxer.get(), name, 1, &found) != 0)
+        bytes = std::as_bytes(std::span(found.chunk.bytes, found.chunk.size));
+      WebPDemuxReleaseChunkIterator(&found);
+      return bytes;  // of the file
+    };
+    const auto profile = chunk("ICCP"), xmp = chunk("XMP ");
+    auto exif = chunk("EXIF");
+    declared_.icc.assign(profile.begin(), profile.end());
+    declared_.xmp.assign(reinterpret_cast<const char*>(xmp.data()), xmp.size());
+    // Some programs put what a JPEG's marker begins with before it.
+    constexpr std::size_t kMarkerBytes = 6;
+    if (exif.size() > kMarkerBytes && std::memcmp(exif.data(), "Exif\0\0", kMarkerBytes) == 0)
+      exif = exif.subspan(kMarkerBytes);
+    declared_.orientation = exif_orientation(exif).value_or(1);
+  }
+
   const std::uint8_t* data() const { return reinterpret_cast<const std::uint8_t*>(source_.bytes.data()); }
   void check(VP8StatusCode status) const {
     if (status != VP8_STATUS_OK) throw Error(ErrorKind::damaged, source_.name, text_of(status));
@@ -155,7 +186,7 @@ WriteReport write_webp(ByteSink& file, std::span<const WritePart> parts, const W
   const bool alpha = order.size() == 4;
   std::vector<bool> srgb(order.size(), colour_for(type, options.colour) == Colour::srgb);
   if (alpha) srgb.back() = false;
-  const PixelEncoder pixels(type, order, srgb);
+  const PixelEncoder pixels(type, order, srgb, alpha ? std::optional(order.back()) : std::nullopt);
   const ImageView<const float> image = part.image;
   const std::size_t stride = static_cast<std::size_t>(image.width) * pixels.pixel_bytes();
   std::vector<std::byte> stored(stride * static_cast<std::size_t>(image.height));

@@ -19,7 +19,9 @@ TEST(Webp, LosslessComesBackExactly) {
     EXPECT_EQ(info_of(bytes).parts[0].channels, names_of(channels));
     EXPECT_EQ(info_of(bytes).colour, Colour::srgb);
     const Image once = decoded(bytes);
-    EXPECT_LE(largest_difference(once, noise(31, 17, channels)), 0.5f / 255 * 2.4f / 1.055f + 1e-7f);
+    // Half a code, steepened by decoding; of the product with alpha, half a code of that too.
+    const float tolerance = 0.5f / 255 * (2.4f / 1.055f + (channels == 4 ? 1 : 0)) + 1e-7f;
+    EXPECT_LE(largest_difference(once, noise(31, 17, channels)), tolerance);
     expect_same(decoded(encoded("webp", once, lossless())), once);
   }
 }
@@ -27,8 +29,10 @@ TEST(Webp, LosslessComesBackExactly) {
 TEST(Webp, ColoursUnderZeroAlphaStay) {
   Image image = noise(8, 8, 4);
   for (int i = 0; i < 64; ++i) image.at(0, 0)[4 * i + 3] = 0;
-  const Image once = decoded(encoded("webp", image, lossless()));
-  for (int i = 0; i < 64; ++i) EXPECT_NEAR(once.at(0, 0)[4 * i], image.at(0, 0)[4 * i], 0.005f);
+  Image once(8, 8, 3);
+  const Bytes bytes = encoded("webp", image, lossless());
+  open(bytes, "test")->read(0, std::vector{0, 1, 2}, once.view());
+  for (int i = 0; i < 64; ++i) EXPECT_NEAR(once.at(0, 0)[3 * i], image.at(0, 0)[4 * i], 0.005f);
 }
 
 TEST(Webp, GreyIsStoredThreeTimes) {
