@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <cmath>
 
 #include "welkin/base/error.h"
 #include "welkin/io/decode_pixels.h"
@@ -15,10 +15,6 @@
 
 namespace welkin::io {
 namespace {
-
-bool matches(std::span<const std::byte> bytes) {
-  return bytes.size() >= 2 && bytes[0] == std::byte{'#'} && bytes[1] == std::byte{'?'};
-}
 
 /// Scan lines that one task decodes together.
 struct Batch {
@@ -42,6 +38,11 @@ class HdrReader : public FormatReader {
                       "): " + std::to_string(header_.lines()) + " scan lines need at least " +
                       std::to_string(minimum) + " bytes");
     }
+    try {
+      body_ = hdr_body(source.bytes, header_.pixels_at, header_.lines(), header_.line_length());
+    } catch (const Error& error) {
+      throw in_file(source.name, error);
+    }
     HdrCoding coding;
     line_end(0, header_.pixels_at, coding);
 
@@ -50,12 +51,23 @@ class HdrReader : public FormatReader {
     info_.colour = source.options.colour == Colour::srgb ? Colour::srgb : Colour::linear;
     info_.attributes = header_.attributes;
     info_.notes = header_.notes;
+    info_.warnings = header_.warnings;
+    declared_.primaries = header_.primaries;
+    if (header_.gamma != 1) {
+      declared_.curve = Curve::gamma;
+      declared_.gamma = header_.gamma;
+    }
+    if (body_.following > 0) {
+      info_.warnings.push_back(std::to_string(body_.following) + " bytes follow the pixels and are not read");
+    }
     info_.notes.push_back("RGBE: 8-bit mantissas with a shared exponent");
     if (header_.xyze) {
       info_.notes.push_back(
           "XYZE, converted to linear RGB of sRGB primaries and white; Y=1 is kept as white of 1");
     }
-    for (int k = 0; k < 3; ++k) divisor_[k] = static_cast<float>(header_.divisor[k]);
+    // The divisor divides linear values, so before the power it is the root.
+    for (int k = 0; k < 3; ++k)
+      divisor_[k] = static_cast<float>(std::pow(header_.divisor[k], 1 / header_.gamma));
     divided_ = std::any_of(divisor_, divisor_ + 3, [](float d) { return d != 1; });
     if (divided_) info_.notes.push_back("divided by the EXPOSURE and COLORCORR of its header");
     info_.parts.push_back({"",
@@ -70,11 +82,14 @@ class HdrReader : public FormatReader {
 
  private:
   std::size_t line_end(int line, std::size_t at, HdrCoding& coding) const {
+    if (body_.flat) {
+      coding = HdrCoding::flat;
+      return at + 4 * static_cast<std::size_t>(header_.line_length());
+    }
     try {
-      return hdr_line_end(source_.bytes, at, header_.line_length(), coding);
+      return hdr_line_end(source_.bytes, at, line, header_.line_length(), coding);
     } catch (const Error& error) {
-      throw Error(ErrorKind::damaged, source_.name,
-                  "scan line " + std::to_string(line) + ": " + error.what());
+      throw in_file(source_.name, error);
     }
   }
   void decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb,
@@ -82,6 +97,7 @@ class HdrReader : public FormatReader {
 
   Source source_;
   HdrHeader header_;
+  HdrBody body_;
   float divisor_[3] = {1, 1, 1};
   bool divided_ = false;
 };
@@ -166,7 +182,7 @@ Format hdr_format() {
            .lossless = false,
            .hdr = true,
            .attributes = true},
-          matches,
+          is_hdr,
           open_hdr,
           write_hdr,
           true};

@@ -165,7 +165,7 @@ TEST(Hdr, ExposuresMultiplyUpAndAreDividedOut) {
        {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=x\n", "EXPOSURE=nan\n", "COLORCORR=1 1\n"}) {
     const Bytes file = picture(unusable, "-Y 1 +X 1", {128, 128, 128, 136});
     EXPECT_EQ(decoded(file).at(0, 0)[0], 128.0f) << unusable;
-    EXPECT_NE(info_of(file).notes.at(0).find("is ignored"), std::string::npos) << unusable;
+    EXPECT_NE(info_of(file).warnings.at(0).find("is ignored"), std::string::npos) << unusable;
   }
 }
 

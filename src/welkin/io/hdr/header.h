@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,13 +15,17 @@ namespace welkin::io {
 /// pixels.
 ///
 /// EXPOSURE and COLORCORR are multipliers that were applied to the pixels; each may occur several times, and
-/// their product applies. Radiance is the stored value divided by them.
+/// their product applies. Radiance is the stored value divided by them. Lines that begin with white space
+/// come from the pictures that this one was made of, and say nothing of it.
 struct HdrHeader {
   bool xyze = false;
   double divisor[3] = {1, 1, 1};  ///< EXPOSURE·COLORCORR of R, G, B
+  double gamma = 1;               ///< linear = stored^gamma, and is what the divisor divides
+  std::optional<Chromaticities> primaries;
   std::map<std::string, std::string>
       attributes;  ///< all lines but FORMAT; those that are not name=value under `history`
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;
 
   int width = 0;
   int height = 0;
@@ -31,6 +37,10 @@ struct HdrHeader {
   int lines() const { return columns ? width : height; }
   int line_length() const { return columns ? height : width; }
 };
+
+/// Whether the file is a Radiance picture: it begins with `#?`, or, as those of the time before that mark, is
+/// lines of text of which one says FORMAT=32-bit_rle_…, or whose first empty line a resolution line follows.
+bool is_hdr(std::span<const std::byte> bytes);
 
 /// Throws Error when the header is not one, or check_size does.
 HdrHeader parse_hdr_header(const Source& source);

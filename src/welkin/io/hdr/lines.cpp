@@ -18,12 +18,28 @@ bool may_be_components(int length) {
   return length >= kShortestComponentLine && length <= kLongestComponentLine;
 }
 
+struct EndsEarly : Error {
+  explicit EndsEarly(std::size_t at)
+      : Error(ErrorKind::damaged, "ends early (byte " + std::to_string(at) + ")") {}
+};
+
 [[noreturn]] void ends_early(std::size_t at) {
-  throw Error(ErrorKind::damaged, "ends early (byte " + std::to_string(at) + ")");
+  throw EndsEarly(at);
 }
 
 [[noreturn]] void overruns(std::size_t at) {
   throw Error(ErrorKind::damaged, "a run passes the end of the line (byte " + std::to_string(at) + ")");
+}
+
+/// Whether a line of that length begins as one by components does.
+bool starts_components(std::span<const std::byte> bytes, std::size_t at, int length) {
+  if (!may_be_components(length) || bytes.size() - at < 4) return false;
+  const auto* head = reinterpret_cast<const std::uint8_t*>(bytes.data()) + at;
+  return head[0] == 2 && head[1] == 2 && (head[2] << 8 | head[3]) == length;
+}
+
+[[noreturn]] void throw_numbered(const Error& error, int line) {
+  throw Error(error.kind(), "scan line " + std::to_string(line) + ": " + error.what());
 }
 
 std::size_t components_end(std::span<const std::byte> bytes, std::size_t at, int length) {
@@ -88,6 +104,44 @@ std::size_t hdr_line_end(std::span<const std::byte> bytes, std::size_t at, int l
     return components_end(bytes, at, length);
   }
   return flat_end(bytes, at, length, coding);
+}
+
+std::size_t hdr_line_end(std::span<const std::byte> bytes, std::size_t at, int line, int length,
+                         HdrCoding& coding) {
+  try {
+    return hdr_line_end(bytes, at, length, coding);
+  } catch (const Error& error) {
+    throw_numbered(error, line);
+  }
+}
+
+HdrBody hdr_body(std::span<const std::byte> bytes, std::size_t at, int lines, int length) {
+  const std::uint64_t held = bytes.size() - at;
+  const std::uint64_t flat_bytes =
+      std::uint64_t{4} * static_cast<std::uint64_t>(lines) * static_cast<std::uint64_t>(length);
+  const bool may_be_flat = held >= flat_bytes;
+  const HdrBody flat{true, may_be_flat ? static_cast<std::size_t>(held - flat_bytes) : 0};
+  int line = 0, component_lines = 0, other_lines = 0;
+  try {
+    for (; line < lines; ++line) {
+      if (starts_components(bytes, at, length)) ++component_lines;
+      HdrCoding coding;
+      at = hdr_line_end(bytes, at, length, coding);
+      if (coding != HdrCoding::components) ++other_lines;
+      if (!may_be_flat && line == 0 && component_lines == 1) return {};
+    }
+  } catch (const EndsEarly& error) {
+    // A picture by components that was cut off to the length of a flat one.
+    if (!may_be_flat || component_lines > 0) throw_numbered(error, line);
+    return flat;
+  } catch (const Error& error) {
+    if (!may_be_flat || component_lines > 1) throw_numbered(error, line);
+    return flat;
+  }
+  const bool by_components =
+      component_lines > 1 || (component_lines == 1 && (other_lines == 0 || at == bytes.size()));
+  if (may_be_flat && !by_components) return flat;
+  return {false, bytes.size() - at};
 }
 
 std::uint64_t min_hdr_line_bytes(int length) {

@@ -81,7 +81,7 @@ WriteReport write_hdr(ByteSink& file, std::span<const WritePart> parts, const Wr
   const RowEncoder encoder(part, coding, options.colour == Colour::srgb);
 
   auto attributes = options.attributes;
-  for (const char* of_the_pixels : {"EXPOSURE", "COLORCORR", "FORMAT", "PIXASPECT"})
+  for (const char* of_the_pixels : {"EXPOSURE", "COLORCORR", "FORMAT", "GAMMA", "PIXASPECT", "PRIMARIES"})
     attributes.erase(of_the_pixels);
   const std::string header = "#?RADIANCE\n" + attribute_lines(attributes, "history") +
                              "FORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(part.image.height) + " +X " +
