@@ -8,6 +8,7 @@
 #include "welkin/io/format.h"
 #include "welkin/io/interpret.h"
 #include "welkin/io/output_file.h"
+#include "welkin/io/unread_formats.h"
 
 namespace welkin::io {
 
@@ -107,6 +108,7 @@ std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name,
   }
   std::vector<std::string> names;
   for (const Format& format : formats()) names.push_back(format.capabilities.format);
+  if (const auto known = unread_format(bytes)) throw Error(ErrorKind::unsupported, name, *known);
   throw Error(ErrorKind::unsupported, name,
               "not an image of a known format: begins with " + first_bytes(bytes) +
                   " (can be read: " + listed(names) + ")");

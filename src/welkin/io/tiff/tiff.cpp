@@ -15,6 +15,7 @@
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/tiff/file.h"
 #include "welkin/io/tiff/page.h"
+#include "welkin/io/unread_formats.h"
 #include "welkin/io/xyz.h"
 
 namespace welkin::io {
@@ -244,6 +245,7 @@ class TiffReader : public FormatReader {
 }  // namespace
 
 std::unique_ptr<FormatReader> open_tiff(const Source& source) {
+  if (const auto raw = camera_raw(source.bytes)) throw Error(ErrorKind::unsupported, source.name, *raw);
   return std::make_unique<TiffReader>(source);
 }
 
