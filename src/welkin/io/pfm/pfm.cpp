@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
@@ -17,8 +18,9 @@
 #include "welkin/io/part_rows.h"
 #include "welkin/io/write_choices.h"
 
-/// Portable float maps: `PF` or `Pf`, width, height, a scale factor, one white space, then rows of floats
-/// from the bottom to the top. A negative scale means little-endian.
+/// Portable float maps: `PF` (R G B), `Pf` (grey) or `PF4` (R G B A), width, height, a scale factor, one
+/// white space, then rows of floats from the bottom to the top. A negative scale means little-endian.
+/// Comments, `#` to the end of a line, are skipped where a word could begin, as in Netpbm's other formats.
 ///
 /// The scale's absolute value states the unit of the samples (pfm(5) of Netpbm: with a separately known unit
 /// it gives them a physical meaning); it is not a multiplier of the picture, and most writers put an
@@ -33,9 +35,22 @@ bool is_space(char c) {
 }
 
 bool matches(std::span<const std::byte> bytes) {
-  if (bytes.size() < 3) return false;
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  return text[0] == 'P' && (text[1] == 'F' || text[1] == 'f') && is_space(text[2]);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<std::size_t>(bytes.size(), 4));
+  for (const std::string_view magic : {"PF", "Pf", "PF4"}) {
+    if (text.size() > magic.size() && text.starts_with(magic) && is_space(text[magic.size()])) return true;
+  }
+  return false;
+}
+
+/// The number that `text` is; nothing when it is none, or 0, or infinite.
+std::optional<double> scale_from(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double scale = 0;
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, scale);
+  if (parsed.ec != std::errc{} || parsed.ptr != end || scale == 0 || !std::isfinite(scale)) return {};
+  return scale;
 }
 
 class PfmReader : public FormatReader {
@@ -45,17 +60,19 @@ class PfmReader : public FormatReader {
     const std::uint64_t width = next_size("width");
     const std::uint64_t height = next_size("height");
     const std::string scale_text = next_word();
-    const double scale = std::strtod(scale_text.c_str(), nullptr);
-    if (scale == 0 || !std::isfinite(scale))
-      fail("the scale '" + scale_text + "' is not a number other than 0");
-    order_ = scale < 0 ? std::endian::little : std::endian::big;
-    skip_one_space();
+    const std::optional<double> scale = scale_from(scale_text);
+    if (!scale)
+      fail("the scale '" + scale_text +
+           "', whose sign tells the order of bytes, is not a number other than 0");
+    order_ = *scale < 0 ? std::endian::little : std::endian::big;
 
     std::vector<std::string> channels = {"Y"};
     if (identifier == "PF") channels = {"R", "G", "B"};
+    if (identifier == "PF4") channels = {"R", "G", "B", "A"};
     check_size(source, width, height, channels.size());
     row_bytes_ = static_cast<std::size_t>(width) * channels.size() * sizeof(float);
     const std::uint64_t needed = row_bytes_ * height;
+    skip_space_before(needed);
     const std::uint64_t held = source.bytes.size() - at_;
     if (held < needed) {
       fail("ends early (byte " + std::to_string(source.bytes.size()) + "): the pixels end at byte " +
@@ -65,13 +82,14 @@ class PfmReader : public FormatReader {
     info_.format = "pfm";
     info_.bytes = source.bytes.size();
     info_.colour = source.options.colour == Colour::srgb ? Colour::srgb : Colour::linear;
-    if (std::fabs(scale) != 1) {
+    if (std::fabs(*scale) != 1) {
       info_.attributes[kScaleName] = scale_text.substr(scale_text.find_first_not_of("+-"));
-      info_.notes.push_back("its scale of " + info_.attributes[kScaleName] +
-                            " is a unit and multiplies no pixel");
+      info_.warnings.push_back("its scale of " + info_.attributes[kScaleName] +
+                               " is a unit and multiplies no pixel");
     }
     if (order_ == std::endian::big) info_.notes.push_back("big-endian");
-    if (held > needed) info_.notes.push_back(std::to_string(held - needed) + " bytes follow the pixels");
+    if (held > needed)
+      info_.warnings.push_back(std::to_string(held - needed) + " bytes follow the pixels and are not read");
     info_.parts.push_back(
         {"", static_cast<int>(width), static_cast<int>(height), channels, PixelType::float32, "none"});
   }
@@ -112,7 +130,13 @@ class PfmReader : public FormatReader {
     const auto* text = reinterpret_cast<const char*>(source_.bytes.data());
     const std::size_t size = source_.bytes.size();
     constexpr std::size_t kLongestWord = 64;
-    while (at_ < size && is_space(text[at_])) ++at_;
+    while (at_ < size && (is_space(text[at_]) || text[at_] == '#')) {
+      if (text[at_] != '#') {
+        ++at_;
+      } else {
+        while (at_ < size && text[at_] != '\n') ++at_;
+      }
+    }
     const std::size_t first = at_;
     while (at_ < size && !is_space(text[at_]) && at_ - first < kLongestWord) ++at_;
     if (at_ == size || !is_space(text[at_]))
@@ -130,10 +154,14 @@ class PfmReader : public FormatReader {
     return value;
   }
 
-  /// The white space before the pixels, which next_word has seen: one, or the two of a DOS line end.
-  void skip_one_space() {
+  /// The white space before the pixels, which next_word has seen: one, or the two of a DOS line end, unless
+  /// the second is a byte of the first pixel.
+  void skip_space_before(std::uint64_t pixel_bytes) {
     const auto* text = reinterpret_cast<const char*>(source_.bytes.data());
-    const bool dos = text[at_] == '\r' && at_ + 1 < source_.bytes.size() && text[at_ + 1] == '\n';
+    const std::size_t held = source_.bytes.size() - at_;
+    const bool dos_header = std::string_view(text, at_).find("\r\n") != std::string_view::npos;
+    const bool dos =
+        held >= 2 && text[at_] == '\r' && text[at_ + 1] == '\n' && (dos_header || held - 1 != pixel_bytes);
     at_ += dos ? 2 : 1;
   }
 

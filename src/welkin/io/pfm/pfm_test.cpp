@@ -41,6 +41,7 @@ TEST(Pfm, ColourHasThreeChannels) {
 TEST(Pfm, ScaleIsAnAttributeAndMultipliesNothing) {
   const Bytes bytes = picture("Pf\n1 1\n-2.50\n", {7}, false);
   EXPECT_EQ(info_of(bytes).attributes.at("pfm:scale"), "2.50");
+  EXPECT_EQ(info_of(bytes).warnings.size(), 1u);
   EXPECT_EQ(*decoded(bytes).at(0, 0), 7);
   WriteOptions options;
   options.attributes = info_of(bytes).attributes;
@@ -72,13 +73,48 @@ TEST(Pfm, SrgbIsUndoneWhenAskedFor) {
   EXPECT_LE(largest_difference(decoded(encoded("pfm", image, writing), reading), image), 3e-7f);
 }
 
+TEST(Pfm, FourChannelsHaveAlpha) {
+  for (const bool big : {false, true}) {
+    const Bytes bytes = picture(big ? "PF4\n1 2\n1\n" : "PF4\n1 2\n-1\n", {1, 2, 3, 0.5f, 5, 6, 7, 1}, big);
+    const std::vector<std::string> rgba = {"R", "G", "B", "A"};
+    EXPECT_EQ(info_of(bytes).parts[0].channels, rgba);
+    const Image image = decoded(bytes);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_EQ(image.at(0, 1)[k], std::vector<float>({1, 2, 3, 0.5f})[static_cast<std::size_t>(k)]);
+    EXPECT_EQ(image.at(0, 0)[2], 7);
+    expect_truncation_is_an_error(bytes);
+  }
+}
+
+TEST(Pfm, CommentsAndAnyWhiteSpaceAreSkipped) {
+  for (const char* header : {"Pf\n# by hand\n2 1\n-1.0\n", "Pf # a\n# b\n2 # c\n1\n#\n-1.0\n",
+                             "Pf\t2\v1\f-1 ", "Pf\r2 1\r-1\r", "Pf\r\n2 1\r\n-1\r\n", "Pf\n2\n1\n-1e0\n"}) {
+    const Bytes bytes = picture(header, {3, 4}, false);
+    EXPECT_EQ(*decoded(bytes).at(1, 0), 4) << header;
+    EXPECT_TRUE(info_of(bytes).warnings.empty()) << header;
+  }
+  EXPECT_EQ(*decoded(picture("Pf\n2 1\n+1.0\n", {3, 4}, true)).at(1, 0), 4);
+  // A carriage return alone, before a pixel whose first byte is a line feed.
+  const float pixel = std::bit_cast<float>(0x3f80000au);
+  EXPECT_EQ(*decoded(picture("Pf\n1 1\n-1\r", {pixel}, false)).at(0, 0), pixel);
+}
+
+TEST(Pfm, ScalesThatAreNoneAreRefused) {
+  for (const std::string scale : {"0", "-0.0", "nan", "inf", "-inf", "1x", "--1", "1e999", "x"}) {
+    const std::string message = error_of([&] { decoded(picture("Pf\n1 1\n" + scale + "\n", {1}, false)); });
+    EXPECT_NE(message.find("the scale '" + scale + "', whose sign tells the order of bytes"),
+              std::string::npos)
+        << message;
+  }
+}
+
 TEST(Pfm, LengthMustFit) {
   const Bytes bytes = picture("PF\r\n2 2\r\n-1\r\n", std::vector<float>(12, 1.0f), false);
   EXPECT_EQ(decoded(bytes).at(1, 1)[2], 1);
   expect_truncation_is_an_error(bytes);
   Bytes longer = bytes;
   longer.push_back(std::byte{0});
-  EXPECT_EQ(info_of(longer).notes.back(), "1 bytes follow the pixels");
+  EXPECT_EQ(info_of(longer).warnings.back(), "1 bytes follow the pixels and are not read");
   expect_damage_is_survived(bytes);
 }
 
