@@ -10,7 +10,7 @@ import { read, write } from "ktx-parse";
 import { ZSTDDecoder } from "zstddec";
 
 // Numbers of the Khronos Data Format Specification 1.3 (khr_df.h) and of Vulkan.
-const MODEL_RGBSDA = 1, PRIMARIES_BT709 = 1, TRANSFER_LINEAR = 1, VERSION_1_3 = 2;
+const MODEL_RGBSDA = 1, PRIMARIES_BT709 = 1, TRANSFER_LINEAR = 1, PREMULTIPLIED = 1, VERSION_1_3 = 2;
 const EXPONENT = 0x20, SIGNED = 0x40, FLOAT = 0x80, ALPHA = 15;
 const ONE = 0x3f800000, MINUS_ONE = 0xbf800000 | 0;
 const SCHEMES = { none: 0, zstd: 2 };
@@ -115,7 +115,7 @@ function checkFile(folder, name) {
   expect(name, "supercompression", ktx.supercompressionScheme, SCHEMES[wanted.compression]);
   expect(name, "data format descriptor", ktx.dataFormatDescriptor, [{
     vendorId: 0, descriptorType: 0, versionNumber: VERSION_1_3, colorModel: MODEL_RGBSDA, colorPrimaries: PRIMARIES_BT709,
-    transferFunction: TRANSFER_LINEAR, flags: 0, texelBlockDimension: [0, 0, 0, 0], bytesPlane: [type.bytes, 0, 0, 0, 0, 0, 0, 0],
+    transferFunction: TRANSFER_LINEAR, flags: wanted.channels % 2 === 0 ? PREMULTIPLIED : 0, texelBlockDimension: [0, 0, 0, 0], bytesPlane: [type.bytes, 0, 0, 0, 0, 0, 0, 0],
     samples: type.samples,
   }]);
 

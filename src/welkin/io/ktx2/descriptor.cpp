@@ -1,9 +1,12 @@
 #include "welkin/io/ktx2/descriptor.h"
 
+#include <algorithm>
 #include <bit>
+#include <iterator>
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
+#include "welkin/io/ktx2/format_names.h"
 
 namespace welkin::io::ktx2 {
 namespace {
@@ -48,7 +51,7 @@ std::vector<Sample> samples_of(const TexelFormat& format, Colour colour) {
             {22, 10, 2, qualifier::is_float, 0, kOne}};
   }
   const bool floats = format.type == PixelType::half || format.type == PixelType::float32;
-  const std::uint32_t bits = 8 * format.type_size();
+  const std::uint32_t bits = 8 * format.type_size;
   std::vector<Sample> samples;
   for (const char name : format.channels) {
     Sample sample{bits * static_cast<std::uint32_t>(samples.size()),
@@ -63,19 +66,92 @@ std::vector<Sample> samples_of(const TexelFormat& format, Colour colour) {
   return samples;
 }
 
+/// Those of the specification's section "Transfer functions", by number.
+struct Transfer {
+  std::uint32_t number;
+  const char* name;
+  Curve curve;  ///< none: it is not undone
+  double gamma;
+};
+constexpr Transfer kTransfers[] = {
+    {3, "ITU-R BT.709", Curve::bt709, 1},
+    {4, "NTSC", Curve::gamma, 2.2},
+    {5, "S-Log", Curve::none, 1},
+    {6, "S-Log2", Curve::none, 1},
+    {7, "ITU-R BT.1886", Curve::gamma, 2.4},
+    {8, "HLG", Curve::hlg, 1},
+    {9, "HLG", Curve::hlg, 1},
+    {10, "PQ", Curve::pq, 1},
+    {11, "the OETF of PQ", Curve::none, 1},
+    {12, "DCI-P3", Curve::gamma, 2.6},
+    {13, "PAL", Curve::none, 1},
+    {14, "625-line PAL", Curve::none, 1},
+    {15, "SMPTE ST 240", Curve::none, 1},
+    {16, "ACEScc", Curve::none, 1},
+    {17, "ACEScct", Curve::none, 1},
+    {18, "Adobe RGB", Curve::gamma, 563.0 / 256},
+};
+
+void set_transfer(std::uint32_t number, Descriptor& parsed) {
+  const auto found = std::find_if(std::begin(kTransfers), std::end(kTransfers),
+                                  [&](const Transfer& each) { return each.number == number; });
+  const bool known = found != std::end(kTransfers);
+  if (known && found->curve != Curve::none) {
+    parsed.curve = found->curve;
+    parsed.gamma = found->gamma;
+    return;
+  }
+  parsed.warnings.push_back("the transfer function of its data format descriptor, " +
+                            std::string(known ? found->name : "which is unknown") + ", is not undone");
+}
+
+constexpr double kD65[2] = {0.3127, 0.3290}, kAcesWhite[2] = {0.32168, 0.33767};
+
+/// Those of the specification's section "Color primaries", by number.
+struct Primaries {
+  std::uint32_t number;
+  const char* name;
+  std::optional<Chromaticities> xy;  ///< nothing: they are not converted
+};
+const Primaries kPrimaries[] = {
+    {2, "BT.601 (EBU)", Chromaticities{{0.64, 0.33}, {0.29, 0.60}, {0.15, 0.06}, {kD65[0], kD65[1]}}},
+    {3, "BT.601 (SMPTE)", Chromaticities{{0.630, 0.340}, {0.310, 0.595}, {0.155, 0.070}, {kD65[0], kD65[1]}}},
+    {4, "BT.2020", Chromaticities{{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {kD65[0], kD65[1]}}},
+    {5, "CIE XYZ", {}},
+    {6, "ACES AP0",
+     Chromaticities{{0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, {kAcesWhite[0], kAcesWhite[1]}}},
+    {7, "ACES AP1",
+     Chromaticities{{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {kAcesWhite[0], kAcesWhite[1]}}},
+    {8, "NTSC of 1953", Chromaticities{{0.67, 0.33}, {0.21, 0.71}, {0.14, 0.08}, {0.310, 0.316}}},
+    {9, "525-line PAL", {}},
+    {10, "Display P3", Chromaticities{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {kD65[0], kD65[1]}}},
+    {11, "Adobe RGB", Chromaticities{{0.64, 0.33}, {0.21, 0.71}, {0.15, 0.06}, {kD65[0], kD65[1]}}},
+};
+
+void set_primaries(std::uint32_t number, Descriptor& parsed) {
+  const auto found = std::find_if(std::begin(kPrimaries), std::end(kPrimaries),
+                                  [&](const Primaries& each) { return each.number == number; });
+  const bool known = found != std::end(kPrimaries);
+  if (known) parsed.primaries = found->xy;
+  if (parsed.primaries) return;
+  parsed.warnings.push_back("the primaries of its data format descriptor, " +
+                            std::string(known ? found->name : "which are unknown") + ", are not converted");
+}
+
 }  // namespace
 
-std::vector<std::byte> written_descriptor(const TexelFormat& format, Colour colour) {
+std::vector<std::byte> written_descriptor(const TexelFormat& format, Colour colour, bool premultiplied) {
   const std::vector<Sample> samples = samples_of(format, colour);
   const auto block_bytes = static_cast<std::uint32_t>(4 * (kBlockWords + kSampleWords * samples.size()));
   const std::uint32_t transfer = colour == Colour::srgb ? kTransferSrgb : kTransferLinear;
-  std::vector<std::uint32_t> words = {4 + block_bytes,
-                                      0,  // Khronos's basic descriptor
-                                      kVersion | block_bytes << 16,
-                                      kModelRgbsda | kPrimariesBt709 << 8 | transfer << 16,
-                                      0,  // blocks of one texel
-                                      static_cast<std::uint32_t>(format.bytes()),
-                                      0};  // one plane
+  std::vector<std::uint32_t> words = {
+      4 + block_bytes,
+      0,  // Khronos's basic descriptor
+      kVersion | block_bytes << 16,
+      kModelRgbsda | kPrimariesBt709 << 8 | transfer << 16 | (premultiplied ? kFlagPremultiplied : 0) << 24,
+      0,  // blocks of one texel
+      static_cast<std::uint32_t>(format.bytes()),
+      0};  // one plane
   for (const Sample& sample : samples) {
     words.push_back(sample.bit_offset | (sample.bits - 1) << 16 | sample.channel << 24 |
                     sample.qualifiers << 24);
@@ -109,13 +185,9 @@ Descriptor parse_descriptor(std::span<const std::byte> bytes, std::uint64_t offs
 
   Descriptor parsed;
   if (format.srgb || transfer == kTransferSrgb) parsed.colour = Colour::srgb;
-  if (transfer > kTransferSrgb)
-    parsed.notes.push_back("transfer function " + std::to_string(transfer) +
-                           " of its data format descriptor is not undone");
-  if (primaries > kPrimariesBt709)
-    parsed.notes.push_back("primaries " + std::to_string(primaries) +
-                           " of its data format descriptor are not converted");
-  if (flags & kFlagPremultiplied) parsed.notes.push_back("colour is multiplied by alpha");
+  parsed.premultiplied = (flags & kFlagPremultiplied) != 0;
+  if (transfer > kTransferSrgb && !format.srgb) set_transfer(transfer, parsed);
+  if (primaries > kPrimariesBt709) set_primaries(primaries, parsed);
   return parsed;
 }
 

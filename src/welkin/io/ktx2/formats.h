@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "welkin/io/image_file.h"
@@ -10,18 +9,37 @@
 /// VkFormats, by which KTX2 names the type of its texels. Source: the Vulkan specification, "Formats".
 namespace welkin::io::ktx2 {
 
-/// A format whose texels are read. They are `channels` values of one type, or are packed into 32 bits.
+/// How the bits of a texel are its values.
+enum class Coding {
+  plain,    ///< values of TexelFormat::type, one behind the other
+  snorm,    ///< signed integers of one or two bytes: −1…1
+  doubles,  ///< 64-bit floats
+  fields,   ///< integers of a few bits, in one word
+  packed,   ///< rgb9e5 or r11g11b10
+};
+
+/// A format whose texels are read.
 struct TexelFormat {
   std::uint32_t number;
-  PixelType type;
-  std::string_view channels;  ///< in the order in which they are stored: `RGBA`, `BGR`…
+  PixelType type;             ///< that holds its values
+  std::string_view channels;  ///< in the order in which they are decoded: `RGBA`, `BGR`…
   bool srgb;
+  Coding coding = Coding::plain;
+  /// Bytes of what is swapped between byte orders: one value, or the whole of a packed texel.
+  std::uint32_t type_size = 1;
+  /// Of Coding::fields: from the most significant bit, the name and the number of bits of each,
+  /// `A2R10G10B10`.
+  std::string_view fields = {};
+  bool is_signed = false;  ///< of Coding::fields
 
-  bool packed() const { return type == PixelType::rgb9e5 || type == PixelType::r11g11b10; }
+  bool packed() const { return coding == Coding::packed; }
+  /// Whether PixelDecoder decodes its texels as they lie in the file; decode_values makes floats of others.
+  bool plain() const { return coding == Coding::plain; }
   /// Bytes of a texel.
-  std::size_t bytes() const;
-  /// Bytes of what is swapped between byte orders: the whole of a packed texel, or one value.
-  std::uint32_t type_size() const;
+  std::size_t bytes() const {
+    const bool one_word = coding == Coding::packed || coding == Coding::fields;
+    return one_word ? type_size : channels.size() * type_size;
+  }
 };
 
 /// Null when texels of that format are not read.
@@ -29,8 +47,5 @@ const TexelFormat* find_format(std::uint32_t number);
 
 /// The format that pixels of a type are written in: float32 and half with alpha, rgb9e5, r11g11b10.
 const TexelFormat& format_for(PixelType type);
-
-/// `VK_FORMAT_BC7_SRGB_BLOCK`, or `VkFormat 1000054000` for one of an extension.
-std::string format_name(std::uint32_t number);
 
 }  // namespace welkin::io::ktx2

@@ -8,6 +8,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
+#include "welkin/io/ktx2/format_names.h"
 
 namespace welkin::io::ktx2 {
 namespace {
@@ -37,6 +38,10 @@ class Fields {
   [[noreturn]] void fail(const std::string& cause, std::size_t offset) const {
     throw Error(ErrorKind::damaged, source_.name, cause + " (byte " + std::to_string(offset) + ")");
   }
+  /// What is well-formed but not read.
+  [[noreturn]] void refuse(const std::string& cause, std::size_t offset) const {
+    throw Error(ErrorKind::unsupported, source_.name, cause + " (byte " + std::to_string(offset) + ")");
+  }
   [[noreturn]] void ends_early(const std::string& what, std::uint64_t end) const {
     throw Error(ErrorKind::damaged, source_.name,
                 "ends early (byte " + std::to_string(source_.bytes.size()) + "): " + what + " ends at byte " +
@@ -51,18 +56,24 @@ class Fields {
   const Source& source_;
 };
 
-void parse_format(const Fields& fields, Header& header) {
+/// The data format descriptor's, or 0 where it lies outside the file.
+std::uint32_t colour_model(const Fields& fields, const Source& source) {
+  constexpr std::size_t kModelAt = 12;
+  const std::size_t at = std::size_t{fields.word(at::descriptor)} + kModelAt;
+  return at < source.bytes.size() ? std::to_integer<std::uint32_t>(source.bytes[at]) : 0;
+}
+
+void parse_format(const Fields& fields, const Source& source, Header& header) {
   const std::uint32_t scheme = fields.word(at::scheme), number = fields.word(at::vk_format);
-  if (scheme == 1) fields.fail("supercompressed as BasisLZ, which is not supported", at::scheme);
+  if (scheme == 1) fields.refuse(refusal_of_basis_lz(), at::scheme);
   if (scheme != 0 && scheme != 2 && scheme != 3) {
-    fields.fail("supercompression scheme " + std::to_string(scheme) + " is not supported", at::scheme);
+    fields.refuse("supercompression scheme " + std::to_string(scheme) + " is not supported", at::scheme);
   }
   header.scheme = static_cast<Scheme>(scheme);
   header.format = find_format(number);
-  if (header.format == nullptr) {
-    fields.fail("texels of " + format_name(number) + " are not supported", at::vk_format);
-  }
-  if (const std::uint32_t size = fields.word(at::type_size); size != header.format->type_size()) {
+  if (header.format == nullptr)
+    fields.refuse(refusal_of(number, colour_model(fields, source)), at::vk_format);
+  if (const std::uint32_t size = fields.word(at::type_size); size != header.format->type_size) {
     fields.fail("the type size " + std::to_string(size) + " is not that of " + format_name(number),
                 at::type_size);
   }
@@ -71,7 +82,12 @@ void parse_format(const Fields& fields, Header& header) {
 void parse_shape(const Fields& fields, const Source& source, Header& header) {
   const std::uint32_t width = fields.word(at::width), height = fields.word(at::height),
                       layers = fields.word(at::layers), faces = fields.word(at::faces);
-  if (fields.word(at::depth) != 0) fields.fail("textures of three dimensions are not supported", at::depth);
+  if (const std::uint32_t depth = fields.word(at::depth); depth != 0) {
+    fields.refuse("a texture of three dimensions (" + std::to_string(width) + "×" + std::to_string(height) +
+                      "×" + std::to_string(depth) +
+                      ") is no map; `ktx extract --all` makes pictures of its slices",
+                  at::depth);
+  }
   if (faces != 1 && faces != 6) fields.fail(std::to_string(faces) + " faces, neither 1 nor 6", at::faces);
   if (faces == 6 && width != height) {
     fields.fail(
@@ -101,6 +117,12 @@ void parse_shape(const Fields& fields, const Source& source, Header& header) {
   header.faces = static_cast<int>(faces);
 }
 
+/// Of bytes that the file states, which may be any number.
+std::string count_of(std::uint64_t bytes) {
+  constexpr std::uint64_t kAbsurd = std::uint64_t{1} << 60;
+  return bytes < kAbsurd ? std::to_string(bytes) : "2^60 or more";
+}
+
 /// Sizes: at most 2^20 texels a side and 2^16 pictures of 16 bytes a texel come to less than 2^63 bytes.
 void parse_level(const Fields& fields, const Source& source, const Header& header, std::size_t level,
                  Level& parsed) {
@@ -109,15 +131,15 @@ void parse_level(const Fields& fields, const Source& source, const Header& heade
   parsed = {{fields.long_word(entry), fields.long_word(entry + 8)}, fields.long_word(entry + 16)};
   const std::uint64_t demanded = header.level_bytes(level);
   if (parsed.unpacked_bytes != demanded) {
-    fields.fail(name + " has " + std::to_string(parsed.unpacked_bytes) + " bytes, not the " +
+    fields.fail(name + " has " + count_of(parsed.unpacked_bytes) + " bytes, not the " +
                     std::to_string(demanded) + " of its pictures",
                 entry + 16);
   }
   if (header.scheme == Scheme::none) {
     if (parsed.stored.bytes == demanded) return;
-    fields.fail(name + " is stored in " + std::to_string(parsed.stored.bytes) + " bytes, not " +
-                    std::to_string(demanded),
-                entry + 8);
+    fields.fail(
+        name + " is stored in " + count_of(parsed.stored.bytes) + " bytes, not " + std::to_string(demanded),
+        entry + 8);
   }
   if (demanded > source.options.max_bytes) {
     fields.fail(name + " unpacks to " + std::to_string(demanded) + " bytes, over the limit of " +
@@ -208,7 +230,7 @@ std::uint64_t level_alignment(const Header& header) {
 Header parse_header(const Source& source) {
   const Fields fields(source);
   Header header;
-  parse_format(fields, header);
+  parse_format(fields, source, header);
   parse_shape(fields, source, header);
   header.descriptor = {fields.word(at::descriptor), fields.word(at::descriptor + 4)};
   header.keys = {fields.word(at::keys), fields.word(at::keys + 4)};
@@ -232,7 +254,7 @@ std::vector<std::byte> written_header(const Header& header) {
              faces = static_cast<std::uint32_t>(header.faces),
              levels = static_cast<std::uint32_t>(header.levels.size());
   constexpr std::uint32_t kDepth = 0;
-  for (const std::uint32_t word : {header.format->number, header.format->type_size(), width, height, kDepth,
+  for (const std::uint32_t word : {header.format->number, header.format->type_size, width, height, kDepth,
                                    layers, faces, levels, static_cast<std::uint32_t>(header.scheme)})
     append(bytes, word);
   for (const Section& section : {header.descriptor, header.keys}) {

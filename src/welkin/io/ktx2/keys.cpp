@@ -26,6 +26,10 @@ void parse_entry(std::string_view entry, std::size_t key_bytes, Keys& keys) {
   std::string_view value = entry.substr(key_bytes + 1);
   const std::size_t stored = value.size();
   if (!value.empty() && value.back() == '\0') value.remove_suffix(1);
+  if (key == "KTXmapRange") {
+    keys.warnings.push_back("KTXmapRange, a scale and an offset of all values, is not applied");
+    return;
+  }
   if (key != "KTXcubemapIncomplete" && key != "KTXanimData" && is_text(value)) {
     keys.texts.emplace(key, value);
   } else {

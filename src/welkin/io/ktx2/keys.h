@@ -14,6 +14,7 @@ namespace welkin::io::ktx2 {
 struct Keys {
   std::map<std::string, std::string> texts;  ///< values that are text, without the zero at their end
   std::vector<std::string> notes;            ///< values that are not
+  std::vector<std::string> warnings;         ///< what the values ask for and is not done
 };
 
 /// Throws Error, the cause only, with the byte offset: `offset` is where `bytes` begin in the file.

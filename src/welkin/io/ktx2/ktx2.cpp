@@ -60,17 +60,53 @@ class Ktx2Reader final : public FormatReader {
     Descriptor descriptor =
         parse_descriptor(section(header_.descriptor), header_.descriptor.offset, *header_.format);
     info_.colour = source_.options.colour == Colour::automatic ? descriptor.colour : source_.options.colour;
-    info_.notes = std::move(descriptor.notes);
+    info_.warnings = std::move(descriptor.warnings);
+    declared_.curve = descriptor.curve;
+    declared_.gamma = descriptor.gamma;
+    declared_.primaries = descriptor.primaries;
+    premultiplied_ = descriptor.premultiplied;
   }
 
   void read_keys() {
     Keys keys = parse_keys(section(header_.keys), header_.keys.offset);
     info_.attributes = std::move(keys.texts);
     info_.notes.insert(info_.notes.end(), keys.notes.begin(), keys.notes.end());
+    info_.warnings.insert(info_.warnings.end(), keys.warnings.begin(), keys.warnings.end());
     const auto orientation = info_.attributes.find("KTXorientation");
     if (orientation != info_.attributes.end()) turn(orientation->second);
-    if (info_.attributes.contains("KTXswizzle"))
-      info_.notes.push_back("KTXswizzle is not applied: channels are those that are stored");
+    const auto swizzle = info_.attributes.find("KTXswizzle");
+    choose_channels(swizzle == info_.attributes.end() ? std::string() : swizzle->second);
+  }
+
+  /// The channels that are given: those that are stored, or what `swizzle`, four of `rgba01`, makes of them.
+  /// Grey is given once, and alpha of 1 not at all.
+  void choose_channels(const std::string& swizzle) {
+    constexpr std::string_view kNames = "RGBA", kLetters = "rgba";
+    const std::string_view stored = header_.format->channels;
+    std::array<int, 4> own{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t found = stored.find(kNames[k]);
+      own[k] = found != std::string_view::npos ? static_cast<int>(found) : k == 3 ? kOne : kZero;
+      if (own[k] >= 0) channels_.push_back({std::string(1, kNames[k]), own[k]});
+    }
+    if (swizzle.empty()) return;
+    if (swizzle.size() != 4 || swizzle.find_first_not_of("rgba01") != std::string::npos) {
+      info_.warnings.push_back("KTXswizzle is '" + swizzle + "', not four of rgba01, and is not applied");
+      return;
+    }
+    std::array<int, 4> asked{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t letter = kLetters.find(swizzle[k]);
+      asked[k] = letter != std::string_view::npos ? own[letter] : swizzle[k] == '0' ? kZero : kOne;
+    }
+    if (asked == own) return;
+    const bool grey = asked[0] >= 0 && asked[0] == asked[1] && asked[0] == asked[2];
+    if (grey) channels_ = {{"Y", asked[0]}};
+    if (!grey) channels_ = {{"R", asked[0]}, {"G", asked[1]}, {"B", asked[2]}};
+    if (asked[3] != kOne) channels_.push_back({"A", asked[3]});
+    check_size(source_, static_cast<std::uint64_t>(header_.width), static_cast<std::uint64_t>(header_.height),
+               channels_.size());
+    info_.notes.push_back("its channels are rearranged as KTXswizzle says: " + swizzle);
   }
 
   /// Which way texels and rows run, `rd` being the way of images here.
@@ -91,9 +127,9 @@ class Ktx2Reader final : public FormatReader {
 
   void list_parts() {
     std::vector<std::string> names;
-    for (const char name : std::string_view("RGBA")) {
-      if (header_.format->channels.find(name) != std::string_view::npos) names.emplace_back(1, name);
-    }
+    for (const Channel& channel : channels_) names.push_back(channel.name);
+    if (channels_.back().name == "A")
+      declared_.alpha = premultiplied_ ? AlphaKind::associated : AlphaKind::straight;
     for (int level = 0; level < info_.levels; ++level) {
       const auto index = static_cast<std::size_t>(level);
       for (int layer = 0; layer < header_.layer_count(); ++layer) {
@@ -123,8 +159,16 @@ class Ktx2Reader final : public FormatReader {
     return buffer;
   }
 
+  static constexpr int kZero = -1, kOne = -2;
+  struct Channel {
+    std::string name;
+    int stored;  ///< index into TexelFormat::channels, kZero or kOne
+  };
+
   Source source_;
   Header header_;
+  std::vector<Channel> channels_;
+  bool premultiplied_ = false;
   bool from_right_ = false, from_bottom_ = false;
   std::mutex mutex_;
   std::shared_ptr<const Buffer> kept_;
@@ -150,24 +194,31 @@ void Ktx2Reader::decode(std::size_t part_index, std::span<const int> channels, I
   std::vector<std::string> stored_names;
   for (const char name : format.channels) stored_names.emplace_back(1, name);
   std::vector<int> stored_channels;
+  std::vector<std::pair<int, float>> constants;
   for (const int channel : channels) {
-    const std::string& name = part.channels[static_cast<std::size_t>(channel)];
-    stored_channels.push_back(static_cast<int>(format.channels.find(name)));
+    const int stored = channels_[static_cast<std::size_t>(channel)].stored;
+    if (stored < 0)
+      constants.emplace_back(static_cast<int>(stored_channels.size()), stored == kOne ? 1.0f : 0.0f);
+    stored_channels.push_back(std::max(stored, 0));
   }
-  const PixelDecoder decoder(format.packed() ? PixelType::float32 : format.type,
+  const PixelDecoder decoder(format.plain() ? format.type : PixelType::float32,
                              srgb_channels(stored_names, info_.colour));
 
   const std::size_t stride = static_cast<std::size_t>(part.width) * format.bytes();
   const std::size_t grain = std::max<std::size_t>(1, (1 << 16) / stride);
   tbb::parallel_for(tbb::blocked_range<int>(0, out.height, grain), [&](const tbb::blocked_range<int>& rows) {
-    std::vector<float> rgb(format.packed() ? 3 * static_cast<std::size_t>(part.width) : 0);
+    std::vector<float> floats(format.plain() ? 0
+                                             : format.channels.size() * static_cast<std::size_t>(part.width));
     for (int y = rows.begin(); y < rows.end(); ++y) {
       const int stored_row = from_bottom_ ? out.height - 1 - y : y;
       const std::byte* const texels = first + static_cast<std::size_t>(stored_row) * stride;
-      if (format.packed()) decode_packed(format.type, texels, part.width, rgb.data());
-      const void* const values = format.packed() ? static_cast<const void*>(rgb.data()) : texels;
+      if (!format.plain()) decode_values(format, texels, part.width, floats.data());
+      const void* const values = format.plain() ? texels : static_cast<const void*>(floats.data());
       float* const to = from_right_ ? out.at(out.width - 1, y) : out.row(y);
       decoder.decode(values, stored_channels, part.width, to, from_right_ ? -out.channels : out.channels);
+      for (const auto& [k, value] : constants) {
+        for (int x = 0; x < out.width; ++x) out.at(x, y)[k] = value;
+      }
     }
   });
 }

@@ -50,8 +50,9 @@ inline std::uint64_t long_word(const Bytes& bytes, std::size_t at) {
 
 template <class T>
 void append(Bytes& bytes, T value) {
-  const auto* first = reinterpret_cast<const std::byte*>(&value);
-  bytes.insert(bytes.end(), first, first + sizeof value);
+  const std::size_t at = bytes.size();
+  bytes.resize(at + sizeof value);
+  std::memcpy(&bytes[at], &value, sizeof value);
 }
 
 /// One entry of key/value data, padded.
@@ -69,7 +70,7 @@ struct OtherFile {
   std::uint32_t format = 9, type_size = 1;
   std::size_t texel_bytes = 1;
   std::uint32_t width = 1, height = 1, depth = 0, layers = 0, faces = 1, levels = 1, scheme = 0;
-  std::uint32_t transfer = 1, primaries = 1;
+  std::uint32_t transfer = 1, primaries = 1, model = 1, flags = 0;
   Bytes keys = {};
   std::uint64_t unpacked = 0;  ///< 0: as many bytes as are stored
 };
@@ -89,9 +90,9 @@ inline Bytes file_of(const OtherFile& file, const Bytes& texels) {
   append(bytes, std::uint64_t{kDescriptorAt} + kDescriptorBytes + key_bytes);
   append(bytes, std::uint64_t{texels.size()});
   append(bytes, file.unpacked == 0 ? std::uint64_t{texels.size()} : file.unpacked);
-  for (const std::uint32_t field :
-       {kDescriptorBytes, 0u, 2u | 24u << 16, 1u | file.primaries << 8 | file.transfer << 16, 0u,
-        static_cast<std::uint32_t>(file.texel_bytes), 0u})
+  for (const std::uint32_t field : {kDescriptorBytes, 0u, 2u | 24u << 16,
+                                    file.model | file.primaries << 8 | file.transfer << 16 | file.flags << 24,
+                                    0u, static_cast<std::uint32_t>(file.texel_bytes), 0u})
     append(bytes, field);
   bytes.insert(bytes.end(), file.keys.begin(), file.keys.end());
   bytes.insert(bytes.end(), texels.begin(), texels.end());

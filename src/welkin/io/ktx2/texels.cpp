@@ -6,6 +6,9 @@
 #include <cassert>
 #include <cstring>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "welkin/io/byte_order.h"
 #include "welkin/io/shared_exponent.h"
@@ -145,6 +148,56 @@ void encode_segment(PixelType type, Planes& planes, const Colours& colours, int 
   interleaved(halves);
 }
 
+template <class T>
+void decode_snorm(const std::byte* stored, std::size_t count, float* values) {
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<T>::max());
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value = static_cast<double>(load_native<T>(stored + i * sizeof(T)));
+    values[i] = static_cast<float>(std::max(-1.0, value / kLargest));
+  }
+}
+
+/// A channel inside a word.
+struct Field {
+  std::size_t channel;
+  int shift, bits;
+};
+
+std::vector<Field> fields_of(const TexelFormat& format) {
+  std::vector<Field> fields;
+  int end = 8 * static_cast<int>(format.type_size);
+  for (std::string_view text = format.fields; !text.empty();) {
+    const std::size_t channel = format.channels.find(text.front());
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789", 1), text.size()) - 1;
+    const int bits = std::stoi(std::string(text.substr(1, digits)));
+    end -= bits;
+    fields.push_back({channel, end, bits});
+    text.remove_prefix(1 + digits);
+  }
+  assert(end == 0 && fields.size() == format.channels.size());
+  return fields;
+}
+
+double value_of_bits(std::uint32_t code, int bits, bool is_signed) {
+  const double largest = static_cast<double>((std::uint32_t{1} << (is_signed ? bits - 1 : bits)) - 1);
+  if (!is_signed) return code / largest;
+  const auto half = std::int64_t{1} << (bits - 1);
+  const std::int64_t value = code >= half ? std::int64_t{code} - 2 * half : std::int64_t{code};
+  return std::max(-1.0, static_cast<double>(value) / largest);
+}
+
+void decode_fields(const TexelFormat& format, const std::byte* stored, int count, float* values) {
+  const std::vector<Field> fields = fields_of(format);
+  for (int i = 0; i < count; ++i, stored += format.type_size, values += fields.size()) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, stored, format.type_size);
+    for (const Field& field : fields) {
+      const std::uint32_t code = word >> field.shift & ((std::uint32_t{1} << field.bits) - 1);
+      values[field.channel] = static_cast<float>(value_of_bits(code, field.bits, format.is_signed));
+    }
+  }
+}
+
 }  // namespace
 
 TexelEncoder::TexelEncoder(PixelType type, std::vector<int> order, Colour colour)
@@ -205,6 +258,26 @@ void decode_packed(PixelType type, const std::byte* stored, int count, float* rg
       rgb[2] = float_of_small<5>(texel >> 22);
     }
   }
+}
+
+void decode_values(const TexelFormat& format, const std::byte* stored, int count, float* values) {
+  const std::size_t all = static_cast<std::size_t>(count) * format.channels.size();
+  switch (format.coding) {
+    case Coding::packed:
+      return decode_packed(format.type, stored, count, values);
+    case Coding::snorm:
+      return format.type_size == 1 ? decode_snorm<std::int8_t>(stored, all, values)
+                                   : decode_snorm<std::int16_t>(stored, all, values);
+    case Coding::doubles:
+      for (std::size_t i = 0; i < all; ++i)
+        values[i] = static_cast<float>(load_native<double>(stored + i * sizeof(double)));
+      return;
+    case Coding::fields:
+      return decode_fields(format, stored, count, values);
+    case Coding::plain:
+      break;
+  }
+  assert(false);
 }
 
 }  // namespace welkin::io::ktx2

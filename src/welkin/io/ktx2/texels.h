@@ -37,4 +37,9 @@ class TexelEncoder {
 /// `count` texels of a packed type to interleaved R G B; exact.
 void decode_packed(PixelType type, const std::byte* stored, int count, float* rgb);
 
+/// `count` texels of a format that isn't plain to floats, TexelFormat::channels interleaved. Integers of n
+/// bits become k/(2^n − 1), signed ones max(−1, k/(2^(n−1) − 1)), as the Vulkan specification defines them;
+/// doubles the nearest floats.
+void decode_values(const TexelFormat& format, const std::byte* stored, int count, float* values);
+
 }  // namespace welkin::io::ktx2

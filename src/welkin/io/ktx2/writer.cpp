@@ -111,6 +111,13 @@ class Pictures {
   std::vector<const WritePart*> parts_;  ///< level by level, layer by layer, face by face
 };
 
+/// Whether a map has alpha of its own: its colours are multiplied by it, as they are in memory.
+bool has_alpha(std::span<const WritePart> parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const WritePart& part) {
+    return part.channels.size() > 1 && std::count(part.channels.begin(), part.channels.end(), "A") > 0;
+  });
+}
+
 class Writer {
  public:
   Writer(std::span<const WritePart> parts, const WriteOptions& options) : pictures_(parts, header_) {
@@ -130,7 +137,7 @@ class Writer {
             colour);
     }
 
-    const std::vector<std::byte> descriptor = written_descriptor(*header_.format, colour);
+    const std::vector<std::byte> descriptor = written_descriptor(*header_.format, colour, has_alpha(parts));
     const std::vector<std::byte> keys = written_keys(options.attributes);
     header_.descriptor = {header_bytes(header_.levels.size()), descriptor.size()};
     header_.keys = {header_.descriptor.offset + descriptor.size(), keys.size()};
