@@ -10,6 +10,7 @@
 #include "welkin/sphere/healpix.h"
 #include "welkin/sphere/hemi_octahedral.h"
 #include "welkin/sphere/latlong.h"
+#include "welkin/sphere/latlong_window.h"
 #include "welkin/sphere/mercator.h"
 #include "welkin/sphere/mirror_ball.h"
 #include "welkin/sphere/octahedral.h"
@@ -26,12 +27,13 @@ namespace welkin::sphere {
 template <class... P>
 struct TypeList {};
 
-/// Every parameterization that Welkin knows. To add one, write its header and name it here.
+/// Every parameterization that Welkin knows. To add one, write its header and name it here. A second one of a
+/// name is the first's WithParameters.
 using AllParameterizations =
     TypeList<LatLong, EqualArea, SphereMap, MirrorBall, AngularMap, Cube, EquiAngularCube, DualParaboloid,
              Octahedral, OctahedralRect, OctahedralPerspective, OctahedralEqualArea, FisheyeEquidistant,
              FisheyeEquisolid, FisheyeOrthographic, FisheyeStereographic, HalfCube, HemiOctahedral,
-             SkyLatLong, Cylinder, Mercator, Healpix, OpenExrLatLong, OpenExrCube>;
+             SkyLatLong, Vr180, Cylinder, Mercator, Healpix, OpenExrLatLong, OpenExrCube, LatLongWindow>;
 
 /// Calls visit(name, value, minimum, maximum, description) for each parameter of `p`, if it has any. `value`
 /// is a double&, const when `p` is; a value that the visitor changes takes effect.

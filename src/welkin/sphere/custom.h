@@ -22,6 +22,8 @@ class WELKIN_API AnyParameterization::Model {
   virtual std::vector<Parameter> parameters() const = 0;
   virtual bool set(std::string_view parameter, double value) = 0;
   virtual std::unique_ptr<Model> with_defaults() const = 0;
+  /// What is wrong with the parameters that were set, or nothing.
+  virtual std::string fault() const = 0;
   virtual int charts() const = 0;
   virtual double aspect() const = 0;
   virtual double coverage() const = 0;
@@ -105,6 +107,8 @@ class ModelOf final : public AnyParameterization::Model {
           [&](const char* name, double& value, double minimum, double maximum, const char* text) {
             list.push_back({name, value, minimum, maximum, text});
           });
+    } else if constexpr (requires { typename P::WithParameters; }) {
+      return ModelOf<typename P::WithParameters>().parameters();
     }
     return list;
   }
@@ -127,6 +131,11 @@ class ModelOf final : public AnyParameterization::Model {
     auto fresh = std::make_unique<ModelOf>();
     fresh->kernels = kernels;
     return fresh;
+  }
+
+  std::string fault() const override {
+    if constexpr (requires { p_.fault(); }) return p_.fault();
+    return "";
   }
 
   int charts() const override { return P::kCharts; }
@@ -157,7 +166,9 @@ class ModelOf final : public AnyParameterization::Model {
 /// Parameters, where it has any, are shown by a member template
 /// `void visit_parameters(auto&& visit) { visit("fov", fov, 1.0, 360.0, "field of view, degrees"); }`: name,
 /// member (a double), least, largest, description. A member `update()`, where there is one, is called after
-/// they were set.
+/// they were set. A member `std::string fault() const` says what is wrong with values that don't go together;
+/// AnyParameterization::make refuses them. A struct that is faster without parameters can name another of its
+/// kName with them as `WithParameters`.
 ///
 /// The laws of parameterization.h are not checked: positions, density or coverage that contradict each other
 /// make results wrong, in silence.

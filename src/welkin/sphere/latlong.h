@@ -1,5 +1,6 @@
 #pragma once
 
+#include "welkin/sphere/latlong_window.h"
 #include "welkin/sphere/parameterization.h"
 #include "welkin/sphere/polar.h"
 
@@ -9,6 +10,7 @@ namespace welkin::sphere {
 /// +Y on top (OpenEXR's axes). Past a pole the picture continues down the opposite meridian.
 struct LatLong : WholeWorld {
   static constexpr const char* kName = "latlong";
+  using WithParameters = LatLongWindow;
   static constexpr int kCharts = 1;
   static constexpr Traits kTraits{
       .projection = Projection::panorama, .density_by_row = true, .latlong_grid = true};

@@ -42,9 +42,12 @@ class Registry {
   /// None when there is none of that name.
   std::shared_ptr<const AnyParameterization::Model> find(std::string_view name) const {
     const std::shared_lock lock(mutex_);
-    const auto found =
-        std::find_if(models_.begin(), models_.end(), [&](const auto& each) { return each->name() == name; });
-    return found == models_.end() ? nullptr : *found;
+    return found(models_, name);
+  }
+  /// The one of that name that takes parameters, where it is another.
+  std::shared_ptr<const AnyParameterization::Model> find_with_parameters(std::string_view name) const {
+    const auto other = found(with_parameters_, name);
+    return other != nullptr ? other : find(name);
   }
   std::vector<std::string> names() const {
     const std::shared_lock lock(mutex_);
@@ -63,12 +66,25 @@ class Registry {
   }
 
  private:
+  using Models = std::vector<std::shared_ptr<const AnyParameterization::Model>>;
+
+  static std::shared_ptr<const AnyParameterization::Model> found(const Models& models,
+                                                                 std::string_view name) {
+    const auto at =
+        std::find_if(models.begin(), models.end(), [&](const auto& each) { return each->name() == name; });
+    return at == models.end() ? nullptr : *at;
+  }
+
   Registry() {
-    for (auto& model : make_models(AllParameterizations{})) models_.push_back(std::move(model));
+    for (auto& model : make_models(AllParameterizations{})) {
+      Models& list = found(models_, model->name()) == nullptr ? models_ : with_parameters_;
+      list.push_back(std::move(model));
+    }
   }
 
   mutable std::shared_mutex mutex_;
-  std::vector<std::shared_ptr<const AnyParameterization::Model>> models_;
+  Models models_;           // one of each name
+  Models with_parameters_;  // WithParameters of some of them; never changes
 };
 
 void check_chart(const AnyParameterization::Model& model, int chart) {
@@ -89,17 +105,23 @@ std::vector<std::string> parameterization_names() {
 AnyParameterization AnyParameterization::make(std::string_view spec) {
   const std::size_t comma = spec.find(',');
   const std::string_view name = spec.substr(0, comma);
-  const std::shared_ptr<const Model> prototype = Registry::instance().find(name);
-  if (prototype == nullptr)
+  const std::shared_ptr<const Model> plain = Registry::instance().find(name);
+  if (plain == nullptr)
     throw Error(ErrorKind::bad_request, unknown_name("parameterization", name, parameterization_names()));
-  std::unique_ptr<Model> made = prototype->with_defaults();
   std::string_view rest = comma == std::string_view::npos ? std::string_view{} : spec.substr(comma + 1);
+  if (rest.empty()) return AnyParameterization(std::shared_ptr<const Model>(plain->with_defaults()));
+  std::unique_ptr<Model> made = Registry::instance().find_with_parameters(name)->with_defaults();
   while (!rest.empty()) {
     const std::size_t next = rest.find(',');
     set_parameter(*made, rest.substr(0, next));
     rest = next == std::string_view::npos ? std::string_view{} : rest.substr(next + 1);
   }
-  return AnyParameterization(std::shared_ptr<const Model>(std::move(made)));
+  if (const std::string fault = made->fault(); !fault.empty())
+    throw Error(ErrorKind::bad_request, std::string(spec) + ": " + fault);
+  AnyParameterization parameterization(std::shared_ptr<const Model>(std::move(made)));
+  // Parameters at their defaults are none: the plain one may be faster.
+  if (parameterization.spec() == name) return AnyParameterization(plain);
+  return parameterization;
 }
 
 AnyParameterization AnyParameterization::from_model(std::shared_ptr<const Model> model) {
