@@ -127,6 +127,13 @@ void ReadFlags::add(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--channels", channels,
                      "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
+  command.add_option(
+      "--eye", eye,
+      "Of a picture that holds two eyes' pictures, the one to read: left, right. Default: left, "
+      "where the file declares them");
+  command.add_option("--stereo", stereo,
+                     "How two eyes' pictures lie in the input's: none, top-bottom, left-right. Default: what "
+                     "the file declares, else by its aspect where --eye is given");
   command
       .add_option("--part", part, "Which picture of a file with several, or which cube of an array (from 0)")
       ->check(CLI::Range(0, 1 << 30));
@@ -154,6 +161,18 @@ ReadMapOptions ReadFlags::parse() const {
       throw UsageError("--channels: '" + channel + "' is named twice");
     }
   }
+  if (!eye.empty()) {
+    const std::vector<std::string> names{"left", "right"};
+    if (eye != names[0] && eye != names[1]) throw UsageError("--eye: " + unknown_name("eye", eye, names));
+    options.eye = eye == names[0] ? Eye::left : Eye::right;
+  }
+  if (!stereo.empty()) {
+    const std::vector<std::string> names{"none", "top-bottom", "left-right"};
+    const auto found = std::find(names.begin(), names.end(), stereo);
+    if (found == names.end()) throw UsageError("--stereo: " + unknown_name("arrangement", stereo, names));
+    constexpr io::Stereo kinds[] = {io::Stereo::mono, io::Stereo::top_bottom, io::Stereo::left_right};
+    options.stereo = kinds[found - names.begin()];
+  }
   options.border = border;
   options.part = static_cast<std::size_t>(part);
   options.image.colour = parse_colour("--colour", colour);
@@ -179,12 +198,12 @@ MapReader ReadFlags::open_unknown(const std::string& path) const {
   ReadMapOptions options = parse();
   options.faces.clear();
   MapReader reader(path, options);
-  if (warn) print_warnings(path, reader.info().image.warnings);
-  if (!reader.info().shape) return reader;
-  if (!convention.empty()) {
+  if (reader.info().shape && !convention.empty()) {
     reader.set_orientation(
         orientation_for(convention_from_name(convention), reader.info().shape->parameterization));
   }
+  if (warn) print_warnings(path, reader.info().image.warnings);
+  if (!reader.info().shape) return reader;
   if (!faces.empty()) parse_option("--from-faces", [&] { reader.set_faces(faces); });
   if (level) parse_option("--level", [&] { reader.set_level(*level); });
   return reader;

@@ -64,6 +64,7 @@ Matrix3 parse_rotation(std::string_view option, const std::string& text);
 struct ReadFlags {
   int border = 0;
   std::string from, faces, convention, colour = "auto", primaries = "convert", channels;
+  std::string eye, stereo;
   int part = 0;
   std::optional<int> level;
   bool warn = true;  ///< on stderr of what the files' readers warn of

@@ -47,6 +47,36 @@ struct PartInfo {
   int face = 0;                         ///< of a cube texture: +X −X +Y −Y +Z −Z
 };
 
+/// How the pictures of two eyes lie in one picture. As Google and YouTube have it, the left eye's is on top,
+/// or on the left.
+enum class Stereo {
+  not_said,    ///< nothing is known
+  mono,        ///< one picture, for both eyes
+  top_bottom,  ///< the left eye's above the right eye's
+  left_right,  ///< the left eye's to the left of the right eye's
+};
+
+/// What metadata, such as XMP's GPano, says of a panorama: the part of a full one that the picture shows, and
+/// how the camera stood. map_file/ makes a parameterization and an orientation of it (docs/conventions.md).
+struct Panorama {
+  /// `equirectangular`, `cylindrical`, another program's word; empty: not said.
+  std::string projection;
+  int full_width = 0;   ///< of the full panorama, 360° around, texels; 0: not said
+  int full_height = 0;  ///< of the full panorama, from pole to pole, texels; 0: not said
+  int crop_width = 0;   ///< of the part of it that the picture shows, in its texels; 0: not said
+  int crop_height = 0;  ///< of the part of it that the picture shows, in its texels; 0: not said
+  int crop_left = 0;    ///< that part's left edge in the full panorama, texels
+  /// That part's top edge in the full panorama, texels: below the top, or of a cylinder below the horizon and
+  /// negative above it.
+  int crop_top = 0;
+  double heading = 0;  ///< where the full panorama's centre looks: degrees clockwise from north
+  double pitch = 0;    ///< and how far above the horizon, degrees
+  double roll = 0;     ///< degrees; as it grows, the horizon turns counterclockwise in the picture
+  Stereo stereo = Stereo::not_said;  ///< whether the picture holds two
+  /// All of it.
+  bool operator==(const Panorama&) const = default;
+};
+
 /// What a file says of itself, known before any pixel is decoded.
 struct FileInfo {
   std::string format;              ///< `exr`, `hdr`, `ktx2`, `pfm`, `png`, `jpeg`, `tiff`, `webp`
@@ -58,6 +88,7 @@ struct FileInfo {
   /// Text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
   std::map<std::string, std::string> attributes;
   std::optional<std::string> envmap;  ///< EXR's standard `envmap` attribute: `latlong` or `cube`
+  std::optional<Panorama> panorama;   ///< what it says of the panorama that it shows
   std::vector<std::string> notes;     ///< what a person would like to know: tiles, interlacing…
   /// What reading changes, guesses or leaves undone, so that the picture may not be the one that is meant.
   /// Commands print these on stderr.
@@ -137,6 +168,7 @@ struct WriteOptions {
   int quality = 95;                                    ///< of lossy formats, 1…100
   std::map<std::string, std::string> attributes = {};  ///< text metadata, in formats that carry it
   std::optional<std::string> envmap = {};              ///< EXR's standard `envmap` attribute
+  std::optional<Panorama> panorama = {};               ///< XMP's GPano, in formats that carry XMP
 };
 
 /// What writing lost, for the caller to report.

@@ -8,7 +8,9 @@
 #include "welkin/base/error.h"
 #include "welkin/map_file/chain_attributes.h"
 #include "welkin/map_file/chain_file.h"
+#include "welkin/map_file/eyes.h"
 #include "welkin/map_file/map_file_job.h"
+#include "welkin/map_file/panorama.h"
 
 /// What a file holds: as it declares, as the caller says, or a guess.
 namespace welkin::map_file {
@@ -41,13 +43,14 @@ bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
 }
 
 /// What a picture's size, or the kind of texture, suggests.
-std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& file, bool pattern) {
-  const int width = file.parts[0].width, height = file.parts[0].height;
+std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& file, ChartSize picture,
+                                                         bool pattern) {
+  const auto [width, height] = picture;
   if (pattern) return std::pair("cube:faces", "six files");
   if (file.faces == 6) return std::pair("cube:layers", "a cube texture");
   if (pictures_of(file, 0).size() == 6 && width == height)
     return std::pair("cube:layers", "six square parts");
-  const auto ratio = [&](int across, int down) {
+  const auto ratio = [width = width, height = height](int across, int down) {
     return static_cast<long>(width) * down == static_cast<long>(height) * across;
   };
   if (std::abs(width - 2 * height) <= 1) return std::pair("latlong", "guessed from the aspect 2:1");
@@ -95,7 +98,9 @@ struct Declaration {
   std::string shape, faces, reason;
 };
 
-Declaration declaration_for(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options) {
+/// The picture is one eye's where there are two.
+Declaration declaration_for(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
+                            ChartSize picture, std::vector<std::string>& warnings) {
   const bool pattern = is_pattern(path);
   if (options.shape) {
     std::string shape = *options.shape;
@@ -109,14 +114,37 @@ Declaration declaration_for(const fs::path& path, const io::FileInfo& file, cons
     return {declared, options.faces.empty() ? attribute(file, kFacesKey) : options.faces,
             "declared by the file"};
   }
+  if (file.panorama) {
+    const std::string shape = shape_of(*file.panorama, picture, warnings);
+    if (!shape.empty()) return {shape, options.faces, kByPanorama};
+  }
   if (file.envmap) {
     const std::string name = declared_by_envmap(*file.envmap);
     const std::string_view layout = sphere::AnyParameterization::make(name).traits().layout;
     return {name + (layout.empty() ? "" : ":" + std::string(layout)), options.faces,
             "declared by the envmap attribute"};
   }
-  if (const auto guessed = guess(file, pattern)) return {guessed->first, options.faces, guessed->second};
+  if (const auto guessed = guess(file, picture, pattern))
+    return {guessed->first, options.faces, guessed->second};
   return {"", options.faces, "the file declares no parameterization, and its size suggests none"};
+}
+
+/// The file's picture that the map is in, or the first of several.
+const io::PartInfo& picture_for(const io::FileInfo& file, const ReadMapOptions& options) {
+  const std::vector<std::size_t> pictures = pictures_of(file, 0);
+  return file.parts[pictures[options.part < pictures.size() ? options.part : 0]];
+}
+
+/// Width over height of one eye's picture, were it of the shape that is asked for, or declared, or a
+/// lat-long.
+double aspect_of_eye(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
+                     const io::PartInfo& part) {
+  std::vector<std::string> unused;
+  const std::string text = declaration_for(path, file, options, {part.width, part.height}, unused).shape;
+  if (text.empty()) return 2;
+  const MapShape shape = parse_map_shape(text);
+  const Layout grid = grid_of_picture(shape.layout);
+  return shape.parameterization.aspect() * grid.columns / grid.rows;
 }
 
 /// The shape that is declared, its layout as it lies in the file.
@@ -158,27 +186,42 @@ void check_pictures(const fs::path& path, const io::FileInfo& file, const MapSha
 
 /// Charts of level 0. Throws when the pictures' size is none of the shape.
 ChartSize finest_chart(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
-                       const MapFileInfo& info) {
+                       MapFileInfo& info) {
   const MapShape per_picture{info.shape->parameterization, grid_of_picture(info.shape->layout)};
   const int columns = per_picture.layout.columns, rows = per_picture.layout.rows;
   const io::PartInfo& part = file.parts[pictures_of(file, 0)[first_picture(info.shape->layout, options)]];
-  const int width = part.width - 2 * info.border * columns, height = part.height - 2 * info.border * rows;
+  const ChartSize picture = eye_size(info.stereo, part.width, part.height);
+  const std::string size = std::to_string(picture.width) + "×" + std::to_string(picture.height);
+  const int width = picture.width - 2 * info.border * columns;
+  const int height = picture.height - 2 * info.border * rows;
   if (width < 1 || height < 1) {
     throw Error(ErrorKind::mismatch, path.string(),
-                std::to_string(part.width) + "×" + std::to_string(part.height) +
-                    " leaves nothing inside a border of " + std::to_string(info.border));
+                size + " leaves nothing inside a border of " + std::to_string(info.border));
   }
   // Texels that aren't square were asked for, where the file gives the very size of its charts.
   const std::optional<ChartSize> divided = chart_size_in(per_picture.layout, width, height);
-  if (!options.shape && divided && text_of(*divided) == attribute(file, kChartKey)) return *divided;
+  if (divided && text_of(*divided) == attribute(file, kChartKey)) return *divided;
   ChartSize chart;
   if (size_fits(per_picture, width, height, chart)) return chart;
   char aspect[32];
   std::snprintf(aspect, sizeof aspect, "%.4g", info.shape->parameterization.aspect() * columns / rows);
+  const std::string expected = std::string("whose width is ") + aspect + " times its height";
+  if (info.reason == kByPanorama) return {width, height};  // shape_of has warned
+  if (options.shape && info.shape->parameterization.charts() == 1) {
+    // What was asked is believed.
+    const io::Stereo stereo =
+        stereo_from_aspect(picture.width, picture.height, info.shape->parameterization.aspect());
+    info.image.warnings.push_back(
+        size + " is read as " + info.shape->text() + ", " + expected +
+        ", as asked: its texels are not square" +
+        (two_eyes(stereo) && !two_eyes(info.stereo)
+             ? "; should it hold two eyes' pictures " + where_of(stereo) + ", ask for an eye"
+             : ""));
+    return {width, height};
+  }
   throw Error(
       ErrorKind::mismatch, path.string(),
-      std::to_string(part.width) + "×" + std::to_string(part.height) + " does not fit " + info.shape->text() +
-          " (" + info.reason + "), whose width is " + aspect + " times its height" +
+      size + " does not fit " + info.shape->text() + " (" + info.reason + "), " + expected +
           (columns * rows > 1 ? " in " + std::to_string(columns) + "×" + std::to_string(rows) + " equal cells"
                               : ""));
 }
@@ -203,12 +246,39 @@ std::vector<ChartSize> level_charts(const io::FileInfo& file, const ReadMapOptio
     const std::vector<std::size_t> pictures = pictures_of(file, level);
     if (pictures.size() < first + needed) break;
     const io::PartInfo& part = file.parts[pictures[first]];
-    const std::optional<ChartSize> chart = chart_size_in(grid, part.width, part.height);
+    if ((info.stereo == io::Stereo::left_right && part.width % 2 != 0) ||
+        (info.stereo == io::Stereo::top_bottom && part.height % 2 != 0))
+      break;
+    const ChartSize picture = eye_size(info.stereo, part.width, part.height);
+    const std::optional<ChartSize> chart = chart_size_in(grid, picture.width, picture.height);
     if (!chart || !halved(chart->width, finest.width, level) || !halved(chart->height, finest.height, level))
       break;
     charts.push_back(*chart);
   }
   return charts;
+}
+
+/// From what was asked, or the file declares of its map, or of the camera.
+void find_orientation(const Declaration& declaration, const io::FileInfo& file, const ReadMapOptions& options,
+                      MapFileInfo& info) {
+  std::optional<Matrix3> pose;
+  if (file.panorama && !declaration.shape.empty()) {
+    const bool panorama = parse_map_shape(declaration.shape).parameterization.traits().projection ==
+                          sphere::Projection::panorama;
+    if (panorama) pose = orientation_of(*file.panorama);
+  }
+  if (options.orientation) {
+    require(is_orthonormal(*options.orientation), "the orientation of a map is a rotation or a reflection");
+    info.orientation = *options.orientation;
+    if (pose)
+      info.image.warnings.push_back(pose_text(*file.panorama) +
+                                    ": not used, since an orientation was asked for");
+  } else if (const auto declared = matrix_from(attribute(file, kOrientationKey))) {
+    info.orientation = *declared;
+  } else if (pose) {
+    info.orientation = *pose;
+    info.image.notes.push_back(pose_text(*file.panorama));
+  }
 }
 
 }  // namespace
@@ -238,16 +308,20 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   MapFileInfo info;
   info.image = file;
   info.notes = chain_notes_from(file.attributes);
-  const Declaration declaration = declaration_for(path, file, options);
-  info.reason = declaration.reason;
-  if (options.orientation) {
-    require(is_orthonormal(*options.orientation), "the orientation of a map is a rotation or a reflection");
-    info.orientation = *options.orientation;
-  } else if (const auto declared = matrix_from(attribute(file, kOrientationKey))) {
-    info.orientation = *declared;
-  }
-  if (declaration.shape.empty()) return info;
+  const io::PartInfo& part = picture_for(file, options);
+  ChartSize picture;
   try {
+    choose_eye(
+        {part.width, part.height}, options, [&] { return aspect_of_eye(path, file, options, part); }, info);
+    picture = eye_size(info.stereo, part.width, part.height);
+  } catch (const Error& error) {
+    throw in_file(path.string(), error);
+  }
+  const Declaration declaration = declaration_for(path, file, options, picture, info.image.warnings);
+  info.reason = declaration.reason;
+  try {
+    find_orientation(declaration, file, options, info);
+    if (declaration.shape.empty()) return info;
     info.shape = shape_from(declaration, info.orientation);
   } catch (const Error& error) {
     // A damaged declaration names its file; a bad request names itself.
@@ -255,6 +329,11 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
     throw;
   }
   check_pictures(path, file, *info.shape, options.part);
+  if (two_eyes(info.stereo) && info.shape->layout.kind != LayoutKind::picture) {
+    throw Error(ErrorKind::bad_request, path.string(),
+                info.shape->text() + " is in several pictures, but two eyes' lie in one");
+  }
+  tell_unused_panorama(picture, info);
   info.border = options.border;
   if (!options.shape && options.border == 0) info.border = positive_number(attribute(file, kBorderKey));
   const ChartSize finest = finest_chart(path, file, options, info);

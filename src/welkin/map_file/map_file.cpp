@@ -5,6 +5,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/map/borders.h"
+#include "welkin/map_file/eyes.h"
 #include "welkin/map_file/map_file_job.h"
 
 namespace welkin {
@@ -171,16 +172,16 @@ Map MapReader::read() {
       }
       break;
     case LayoutKind::picture:
-      if (layout.cells.size() == 1 && plain(layout.cells[0])) {
+      if (layout.cells.size() == 1 && plain(layout.cells[0]) && info.stereo == io::Stereo::mono) {
         reader_->read(pictures[first], channels, map.level.chart(0));
         break;
       }
       {
         Image picture(part.width, part.height, count);
         reader_->read(pictures[first], channels, picture.view());
+        const ImageView<const float> seen = eye_of<const float>(info.stereo, info.eye, picture.view());
         for (const LayoutCell& cell : layout.cells) {
-          copy_from_cell(cell, inner(cell_of<const float>(layout, cell, picture.view())),
-                         map.level.chart(cell.chart));
+          copy_from_cell(cell, inner(cell_of<const float>(layout, cell, seen)), map.level.chart(cell.chart));
         }
       }
   }

@@ -17,6 +17,12 @@
 /// Image files ↔ maps: which parameterization a picture has, and where its charts lie in it.
 namespace welkin {
 
+/// Of a picture that holds those of two eyes, the one that is read.
+enum class Eye {
+  left,   ///< the viewer's left one
+  right,  ///< the other
+};
+
 /// How a map's file is read.
 struct ReadMapOptions {
   /// `NAME[:LAYOUT][,PARAMETER=VALUE]…`; without it, what the file declares, else a guess.
@@ -27,6 +33,11 @@ struct ReadMapOptions {
   /// How the file's directions relate to the native world (convention.h), orthonormal; without it, what the
   /// file declares, else native.
   std::optional<Matrix3> orientation = {};
+  /// Of two eyes' pictures, the one that is read; without it the left one, with a warning.
+  std::optional<Eye> eye = {};
+  /// How two eyes' pictures lie in the file's; not_said: what the file declares, else what the aspect
+  /// suggests where an eye is asked for, else one picture.
+  io::Stereo stereo = io::Stereo::not_said;
   int border = 0;  ///< texels of safety border around every chart in the file, besides what the file declares
   std::size_t part = 0;  ///< of a file with several pictures; where these are the charts, of several sets
   int level = 0;         ///< of a file with levels; 0 is the finest
@@ -35,15 +46,17 @@ struct ReadMapOptions {
 
 /// What is known of a map's file before its pixels are read.
 struct MapFileInfo {
-  io::FileInfo image;             ///< of the first file where there are several
-  std::optional<MapShape> shape;  ///< none when nothing declares it and the size suggests nothing
-  std::string reason;             ///< why this shape: `declared by the file`, `guessed from 2:1`…
-  ChartSize chart;                ///< of the level that is read; meaningful when there is a shape
-  std::vector<ChartSize> levels;  ///< charts of every level; one entry for a file without levels, none
-                                  ///< without a shape
-  ChainNotes notes;               ///< what the file says of its levels
-  int border = 0;                 ///< safety border around every chart in the file, texels
-  Matrix3 orientation;            ///< that the map will have
+  io::FileInfo image;                    ///< of the first file where there are several
+  std::optional<MapShape> shape;         ///< none when nothing declares it and the size suggests nothing
+  std::string reason;                    ///< why this shape: `declared by the file`, `guessed from 2:1`…
+  ChartSize chart;                       ///< of the level that is read; meaningful when there is a shape
+  std::vector<ChartSize> levels;         ///< charts of every level; one entry for a file without levels, none
+                                         ///< without a shape
+  ChainNotes notes;                      ///< what the file says of its levels
+  io::Stereo stereo = io::Stereo::mono;  ///< how two eyes' pictures lie in the file's, or that there is one
+  Eye eye = Eye::left;                   ///< the one that is read, where there are two
+  int border = 0;                        ///< safety border around every chart in the file, texels
+  Matrix3 orientation;                   ///< that the map will have
 };
 
 /// A map's file, opened once: it may be a pipe. `path` contains `%s` when the charts are in files of their

@@ -21,6 +21,9 @@ inline constexpr const char* kOrientationKey = "welkin.orientation";
 inline constexpr const char* kBorderKey = "welkin.border";
 inline constexpr const char* kChannelsKey = "welkin.channels";  // where the format may add others
 
+/// MapFileInfo::reason of a shape that FileInfo::panorama declares.
+inline constexpr const char* kByPanorama = "declared by the file's panorama metadata";
+
 /// The file of one chart: `%s` replaced by the chart's name.
 inline std::filesystem::path chart_path(const std::filesystem::path& pattern, const std::string& chart) {
   std::string text = pattern.string();

@@ -152,8 +152,8 @@ TEST_F(MapFile, RefusesWhatDoesNotFit) {
   const io::WritePart part{"", picture.view(), {"R", "G", "B"}};
   io::write(file("a.pfm"), {&part, 1});
   ReadMapOptions options;
-  options.shape = "latlong";
-  EXPECT_NE(message(file("a.pfm"), options).find("40×30 does not fit latlong"), std::string::npos);
+  options.shape = "paraboloid";
+  EXPECT_NE(message(file("a.pfm"), options).find("40×30 does not fit paraboloid"), std::string::npos);
   options.shape = "cube:vcross";
   EXPECT_NE(message(file("a.pfm"), options).find("does not fit cube:vcross"), std::string::npos);
   options.shape = "cube:faces";
@@ -166,6 +166,142 @@ TEST_F(MapFile, RefusesWhatDoesNotFit) {
   options.part = 0;
   options.channels = {"X"};
   EXPECT_NE(message(file("a.pfm"), options).find("unknown channel 'X'"), std::string::npos);
+}
+
+/// What was asked is believed: pictures of one chart may have any aspect.
+TEST_F(MapFile, WhatIsWrittenIsReadWhateverTheAspect) {
+  for (const char* name :
+       {"latlong", "latlong,left=-50,right=70,top=20,bottom=-70", "vr180", "cylinder", "mercator",
+        "sky-latlong", "equal-area", "octahedral", "angular", "fisheye-equisolid,fov=200"}) {
+    const auto p = AnyParameterization::make(name);
+    for (const ChartSize size : {ChartSize{24, 24}, {16, 60}, {70, 8}}) {
+      const Map map = numbered(p, size.width, size.height, 3);
+      for (const char* extension : {"pfm", "webp", "png", "hdr", "exr", "ktx2", "tif", "jpg"}) {
+        const fs::path path = file(std::string("any.") + extension);
+        write_map(path, map);
+        ReadMapOptions options;
+        options.shape = p.spec();
+        for (const bool asked : {true, false}) {
+          const bool declares = std::string(extension) != "pfm" && std::string(extension) != "webp";
+          if (!asked && !declares) continue;
+          const LoadedMap back = read_map(path, asked ? options : ReadMapOptions());
+          EXPECT_EQ(back.map.parameterization.spec(), p.spec()) << path;
+          EXPECT_EQ(back.map.width(), size.width);
+          EXPECT_EQ(back.map.height(), size.height);
+          // The file's own word needs no warning.
+          const bool square = std::abs(p.aspect() * size.height - size.width) <= 1 || p.traits().free_aspect;
+          EXPECT_EQ(back.info.image.warnings.size(), declares || square ? 0U : 1U) << path << ' ' << name;
+          if (std::string(extension) == "pfm" || std::string(extension) == "exr") expect_same(map, back.map);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(MapFile, FacesThatAreNotSquareAreReadWhereTheFileSaysSo) {
+  const Map map = numbered(AnyParameterization::make("cube"), 8, 4, 3);
+  const Layout layout = parse_map_shape("cube:hcross").layout;
+  ReadMapOptions options;
+  options.shape = "cube:hcross";
+  write_map(file("faces.exr"), map, layout);
+  expect_same(map, read_map(file("faces.exr"), options).map);
+  write_map(file("faces.pfm"), map, layout);
+  EXPECT_THROW(read_map(file("faces.pfm"), options), Error);
+}
+
+/// Two maps in one picture, the left eye's first.
+Image two_pictures(const Map& left, const Map& right, bool below) {
+  const int width = left.width(), height = left.height();
+  Image both(below ? width : 2 * width, below ? 2 * height : height, left.channels());
+  for (int y = 0; y < height; ++y) {
+    for (int i = 0; i < width * left.channels(); ++i) {
+      both.view().row(y)[i] = left.level.chart(0).row(y)[i];
+      (below ? both.view().row(height + y) : both.view().row(y) + width * left.channels())[i] =
+          right.level.chart(0).row(y)[i];
+    }
+  }
+  return both;
+}
+
+TEST_F(MapFile, EachEyeIsReadFromItsHalf) {
+  for (const auto& [spec, below] : {std::pair("latlong", true),
+                                    {"latlong", false},
+                                    {"vr180", true},
+                                    {"vr180", false},
+                                    {"cube:hcross", false}}) {
+    const MapShape shape = parse_map_shape(spec);
+    const bool cube = shape.parameterization.charts() > 1;
+    const Map picture = cube ? numbered(AnyParameterization::make("mercator"), 16, 12, 3)
+                             : numbered(shape.parameterization, spec[0] == 'l' ? 12 : 6, 6, 3);
+    Map other = picture.clone();
+    for (int y = 0; y < other.height(); ++y) {
+      for (int i = 0; i < other.width() * 3; ++i) other.level.chart(0).row(y)[i] += 1000;
+    }
+    const Image both = two_pictures(picture, other, below);
+    const io::WritePart part{"", both.view(), {"R", "G", "B"}};
+    io::write(file("both.pfm"), {&part, 1});
+    for (const Eye eye : {Eye::left, Eye::right}) {
+      for (const bool said : {true, false}) {
+        ReadMapOptions options;
+        options.shape = spec;
+        options.eye = eye;
+        if (said) options.stereo = below ? io::Stereo::top_bottom : io::Stereo::left_right;
+        const LoadedMap seen = read_map(file("both.pfm"), options);
+        EXPECT_TRUE(seen.info.image.warnings.empty()) << spec;
+        // Each eye's picture alone.
+        const io::WritePart half{"", (eye == Eye::left ? picture : other).level.chart(0), {"R", "G", "B"}};
+        io::write(file("half.pfm"), {&half, 1});
+        options = {};
+        options.shape = spec;
+        expect_same(read_map(file("half.pfm"), options).map, seen.map);
+      }
+    }
+  }
+}
+
+TEST_F(MapFile, EyesAreToldOrRefused) {
+  const auto refusal = [&](const ReadMapOptions& options) {
+    try {
+      return MapReader(file("both.pfm"), options).info().image.warnings.empty() ? std::string("quiet")
+                                                                                : std::string("warned");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  const auto picture_of = [&](int width, int height) {
+    const Image picture(width, height, 3);
+    const io::WritePart part{"", picture.view(), {"R", "G", "B"}};
+    io::write(file("both.pfm"), {&part, 1});
+  };
+  picture_of(32, 32);
+  ReadMapOptions options;
+  options.eye = Eye::left;
+  EXPECT_EQ(refusal(options), "quiet");  // a lat-long for each eye
+  EXPECT_EQ(MapReader(file("both.pfm"), options).info().shape->text(), "latlong");
+  EXPECT_EQ(MapReader(file("both.pfm"), options).info().stereo, io::Stereo::top_bottom);
+  // Without an eye the left one is read; the user may mean squeezed texels; none is none.
+  options = {};
+  options.stereo = io::Stereo::top_bottom;
+  EXPECT_EQ(refusal(options), "warned");
+  options = {};
+  options.shape = "latlong";
+  EXPECT_EQ(refusal(options), "warned");
+  EXPECT_EQ(MapReader(file("both.pfm"), options).info().chart.height, 32);
+  options.stereo = io::Stereo::mono;
+  options.eye = Eye::right;
+  EXPECT_NE(refusal(options).find("one picture for both eyes"), std::string::npos);
+  picture_of(31, 33);
+  options.stereo = io::Stereo::left_right;
+  EXPECT_NE(refusal(options).find("its width is odd"), std::string::npos);
+  options.stereo = io::Stereo::not_said;
+  EXPECT_NE(refusal(options).find("cannot tell how two eyes' pictures lie in 31×33"), std::string::npos);
+  // Squeezed halves: how they lie must be said.
+  picture_of(64, 32);
+  EXPECT_NE(refusal(options).find("cannot tell"), std::string::npos);
+  options.stereo = io::Stereo::top_bottom;
+  EXPECT_EQ(refusal(options), "warned");
+  options.shape = "cube:layers";
+  EXPECT_NE(refusal(options).find("parts"), std::string::npos);
 }
 
 TEST_F(MapFile, RefusesFacesOfDifferentSizes) {

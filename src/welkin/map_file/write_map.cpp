@@ -7,6 +7,7 @@
 #include "welkin/map_file/chain_file.h"
 #include "welkin/map_file/map_file.h"
 #include "welkin/map_file/map_file_job.h"
+#include "welkin/map_file/panorama.h"
 #include "welkin/map_file/safety_border.h"
 
 namespace welkin {
@@ -31,6 +32,7 @@ io::WriteOptions declared(const io::Capabilities& format, const WrittenLevel& ma
   }
   if (!options.faces.empty()) image.attributes[kFacesKey] = options.faces;
   if (options.border > 0) image.attributes[kBorderKey] = std::to_string(options.border);
+  if (options.border == 0) image.panorama = panorama_of(map.frame);
   // OpenEXR's attribute also says how the world lies: as the native one; and it knows no borders.
   if (!(map.frame.orientation == Matrix3{})) {
     image.attributes[kOrientationKey] = text_of(map.frame.orientation);
