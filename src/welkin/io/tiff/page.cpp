@@ -1,12 +1,11 @@
 #include "welkin/io/tiff/page.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include "welkin/base/error.h"
-#include "welkin/io/decode_pixels.h"
 #include "welkin/io/text_attributes.h"
+#include "welkin/io/tiff/declare.h"
 #include "welkin/io/tiff/tiff.h"
 
 namespace welkin::io {
@@ -36,6 +35,19 @@ constexpr Compression kCompressions[] = {
     {COMPRESSION_LERC, "lerc", 0},
     {COMPRESSION_SGILOG, "sgilog", 0},
     {COMPRESSION_SGILOG24, "sgilog24", 0},
+    {COMPRESSION_CCITTRLE, "ccitt-rle", 0},
+    {COMPRESSION_CCITTRLEW, "ccitt-rle-w", 0},
+    {COMPRESSION_CCITTFAX3, "ccitt-fax3", 0},
+    {COMPRESSION_CCITTFAX4, "ccitt-fax4", 0},
+    {COMPRESSION_OJPEG, "old-jpeg", 0},
+    {COMPRESSION_NEXT, "next", 0},
+    {COMPRESSION_THUNDERSCAN, "thunderscan", 0},
+    {COMPRESSION_PIXARLOG, "pixarlog", 0},
+    {COMPRESSION_JBIG, "jbig", 0},
+    {COMPRESSION_JP2000, "jpeg-2000", 0},
+    {33003, "jpeg-2000", 0},
+    {33005, "jpeg-2000", 0},
+    {50002, "jpeg-xl", 0},
 };
 
 const Compression* find_compression(int code) {
@@ -44,18 +56,37 @@ const Compression* find_compression(int code) {
   return found == std::end(kCompressions) ? nullptr : found;
 }
 
-/// Nothing when the samples have no PixelType.
-std::optional<PixelType> sample_type(int bits, int format) {
-  if (format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID) {
-    if (bits == 8) return PixelType::uint8;
-    if (bits == 16) return PixelType::uint16;
-    if (bits == 32) return PixelType::uint32;
+/// What pixels are; for messages.
+std::string name_of_photometric(int photometric) {
+  switch (photometric) {
+    case PHOTOMETRIC_MINISWHITE:
+    case PHOTOMETRIC_MINISBLACK:
+      return "grey";
+    case PHOTOMETRIC_RGB:
+      return "RGB";
+    case PHOTOMETRIC_PALETTE:
+      return "palette";
+    case PHOTOMETRIC_MASK:
+      return "transparency mask";
+    case PHOTOMETRIC_SEPARATED:
+      return "CMYK";
+    case PHOTOMETRIC_YCBCR:
+      return "YCbCr";
+    case PHOTOMETRIC_CIELAB:
+      return "CIE L*a*b*";
+    case PHOTOMETRIC_ICCLAB:
+      return "ICC L*a*b*";
+    case PHOTOMETRIC_ITULAB:
+      return "ITU L*a*b*";
+    case PHOTOMETRIC_CFA:
+      return "colour filter array";
+    case PHOTOMETRIC_LOGL:
+      return "LogL";
+    case PHOTOMETRIC_LOGLUV:
+      return "LogLuv";
+    default:
+      return "unknown";
   }
-  if (format == SAMPLEFORMAT_IEEEFP) {
-    if (bits == 16) return PixelType::half;
-    if (bits == 32 || bits == 64) return PixelType::float32;
-  }
-  return {};
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -70,18 +101,20 @@ std::vector<std::string> split(const std::string& text) {
   return names;
 }
 
-/// Y or R G B, then A where a sample is said to be alpha, then S4, S5… by position.
-std::vector<std::string> names_of_samples(TIFF* tiff, int photometric, int samples, TiffPage& page) {
+/// Names by the attribute that Welkin writes; none where it doesn't fit.
+std::vector<std::string> said_names(int samples, TiffPage& page) {
   const auto said = page.attributes.find(kTiffChannels);
-  if (said != page.attributes.end()) {
-    std::vector<std::string> names = split(said->second);
-    page.attributes.erase(said);
-    const std::set<std::string> distinct(names.begin(), names.end());
-    if (static_cast<int>(names.size()) == samples && distinct.size() == names.size() &&
-        distinct.count("") == 0) {
-      return names;
-    }
-  }
+  if (said == page.attributes.end()) return {};
+  std::vector<std::string> names = split(said->second);
+  page.attributes.erase(said);
+  const std::set<std::string> distinct(names.begin(), names.end());
+  if (static_cast<int>(names.size()) != samples || distinct.size() != names.size() || distinct.count("") != 0)
+    return {};
+  return names;
+}
+
+/// Names the channels: Y or R G B, then A where a sample is said to be alpha, then S4, S5… by position.
+void name_samples(TIFF* tiff, int photometric, int samples, TiffPage& page) {
   std::vector<std::string> names = {"Y"};
   if (photometric == PHOTOMETRIC_RGB) names = {"R", "G", "B"};
   names.resize(std::min(names.size(), static_cast<std::size_t>(samples)));
@@ -89,15 +122,14 @@ std::vector<std::string> names_of_samples(TIFF* tiff, int photometric, int sampl
   std::uint16_t extra_count = 0;
   std::uint16_t* extra = nullptr;
   TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &extra_count, &extra);
-  bool has_alpha = false;
   for (std::size_t k = colours; k < static_cast<std::size_t>(samples); ++k) {
     const int kind = k - colours < extra_count ? extra[k - colours] : EXTRASAMPLE_UNSPECIFIED;
-    const bool alpha = !has_alpha && (kind == EXTRASAMPLE_ASSOCALPHA || kind == EXTRASAMPLE_UNASSALPHA);
-    if (alpha && kind == EXTRASAMPLE_ASSOCALPHA) page.notes.push_back("colours are multiplied by alpha");
-    has_alpha = has_alpha || alpha;
+    const bool alpha = !page.associated && (kind == EXTRASAMPLE_ASSOCALPHA || kind == EXTRASAMPLE_UNASSALPHA);
+    if (alpha) page.associated = kind == EXTRASAMPLE_ASSOCALPHA;
     names.push_back(alpha ? "A" : std::string("S").append(std::to_string(k + 1)));
   }
-  return names;
+  const std::vector<std::string> said = said_names(samples, page);
+  page.part.channels = said.empty() ? names : said;
 }
 
 void read_text(TIFF* tiff, TiffPage& page) {
@@ -135,12 +167,36 @@ void read_blocks(TIFF* tiff, const Source& source, TiffPage& page) {
   page.block_height = static_cast<int>(height);
 }
 
-/// Grey or RGB samples that libtiff hands over as they are; false when only its RGBA conversion can read
-/// them.
-bool has_plain_samples(int photometric, int bits) {
-  const bool grey_or_rgb = photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_MINISWHITE ||
-                           photometric == PHOTOMETRIC_RGB;
-  return grey_or_rgb && bits >= 8;
+/// Grey or RGB samples that libtiff hands over as they are; others only its RGBA conversion can read.
+bool is_grey_or_rgb(int photometric) {
+  return photometric == PHOTOMETRIC_MINISBLACK || photometric == PHOTOMETRIC_MINISWHITE ||
+         photometric == PHOTOMETRIC_RGB;
+}
+
+/// Whether libtiff's RGBA conversion can read the pixels.
+bool can_convert(TIFF* tiff) {
+  char why[1024] = {};
+  TIFFRGBAImage image{};
+  if (TIFFRGBAImageOK(tiff, why) == 0 || TIFFRGBAImageBegin(&image, tiff, 1, why) == 0) return false;
+  TIFFRGBAImageEnd(&image);
+  return true;
+}
+
+/// Throws when a strip or a tile lies outside the file.
+void check_blocks(TIFF* tiff, const Source& source, const TiffPage& page) {
+  const std::uint64_t size = source.bytes.size();
+  const std::uint32_t count = page.tiled ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint64_t offset = TIFFGetStrileOffset(tiff, i), bytes = TIFFGetStrileByteCount(tiff, i);
+    if (bytes == 0 || (offset <= size && bytes <= size - offset)) continue;
+    const std::string block = (page.tiled ? "tile " : "strip ") + std::to_string(i);
+    throw Error(ErrorKind::damaged, source.name,
+                block +
+                    (offset >= size ? " begins at byte " + std::to_string(offset) + ", past the file's end"
+                                    : ", at byte " + std::to_string(offset) + ", passes the file's end") +
+                    " (byte " + std::to_string(size) +
+                    "); the file was cut off, or its directory is damaged");
+  }
 }
 
 }  // namespace
@@ -159,9 +215,13 @@ void choose_tiff_conversions(TIFF* tiff) {
 TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
   TiffPage page;
   page.directory = TIFFCurrentDirOffset(tiff);
-  const auto fail = [&](const std::string& cause) {
-    throw Error(ErrorKind::damaged, source.name,
-                cause + " (directory at byte " + std::to_string(page.directory) + ")");
+  const auto throw_error = [&](ErrorKind kind, const std::string& cause) {
+    throw Error(kind, source.name, cause + " (directory at byte " + std::to_string(page.directory) + ")");
+  };
+  const auto fail = [&](const std::string& cause) { throw_error(ErrorKind::damaged, cause); };
+  const auto refuse = [&](const std::string& cause) {
+    throw_error(ErrorKind::unsupported,
+                cause + ", which is not read; convert it to RGB of 16-bit integers or floats");
   };
   const std::uint32_t width = field<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0);
   const std::uint32_t height = field<std::uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0);
@@ -172,10 +232,13 @@ TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
   const int format = field<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
   const int compression = field<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   int photometric = field<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  if (TIFFIsCODECConfigured(static_cast<std::uint16_t>(compression)) == 0) {
-    fail("compression " + std::to_string(compression) + " is not known here");
-  }
   const Compression* known = find_compression(compression);
+  if (TIFFIsCODECConfigured(static_cast<std::uint16_t>(compression)) == 0) {
+    throw_error(ErrorKind::unsupported, (known != nullptr ? "compressed by " + std::string(known->name) +
+                                                                ", which libtiff does not decode here"
+                                                          : "compressed in a way that is not known here") +
+                                            "; write it again with another compression");
+  }
   const std::uint64_t stored = static_cast<std::uint64_t>(width) * height *
                                static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(bits) / 8;
   if (known != nullptr && known->best_ratio > 0 && photometric != PHOTOMETRIC_YCBCR &&
@@ -186,45 +249,51 @@ TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
 
   page.part.width = static_cast<int>(width);
   page.part.height = static_cast<int>(height);
-  page.part.compression = known != nullptr ? known->name : std::to_string(compression);
+  page.part.compression = known != nullptr ? known->name : "unnamed";
   page.stored_samples = samples;
   page.planar = samples > 1 && field<std::uint16_t>(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) ==
                                    PLANARCONFIG_SEPARATE;
   read_text(tiff, page);
   read_blocks(tiff, source, page);
-  const int orientation = field<std::uint16_t>(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  if (orientation != ORIENTATION_TOPLEFT) {
-    page.notes.push_back("its orientation of " + std::to_string(orientation) + " is not applied");
-  }
+  check_blocks(tiff, source, page);
 
   const bool sgi_log = compression == COMPRESSION_SGILOG || compression == COMPRESSION_SGILOG24;
   if (sgi_log && (photometric == PHOTOMETRIC_LOGLUV || photometric == PHOTOMETRIC_LOGL) && !page.planar) {
     const bool colour = photometric == PHOTOMETRIC_LOGLUV;
     if (samples != (colour ? 3 : 1)) fail("LogLuv of " + std::to_string(samples) + " samples");
+    page.samples = {TiffSamples::Kind::floating, 32};
     page.decoding = colour ? TiffDecoding::xyz : TiffDecoding::samples;
     page.part.type = PixelType::float32;
     page.part.channels = colour ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
     page.notes.push_back(colour ? "LogLuv, converted to linear RGB of sRGB primaries and white"
                                 : "LogL luminance");
+    declare_tiff_page(tiff, false, page);
     return page;
   }
   // choose_tiff_conversions has made libtiff hand over RGB.
   if (compression == COMPRESSION_JPEG && photometric == PHOTOMETRIC_YCBCR) photometric = PHOTOMETRIC_RGB;
-  if (has_plain_samples(photometric, bits)) {
-    const auto type = sample_type(bits, format);
-    if (!type) fail("samples of " + std::to_string(bits) + " bits and format " + std::to_string(format));
-    page.part.type = *type;
+  if (is_grey_or_rgb(photometric)) {
+    const auto type = tiff_samples(bits, format);
+    if (!type) refuse("a picture of " + name_of_tiff_samples(bits, format));
+    page.samples = *type;
+    page.part.type = type->type();
     page.inverted = photometric == PHOTOMETRIC_MINISWHITE;
-    if (page.inverted && format == SAMPLEFORMAT_IEEEFP) fail("floats of which 0 is white");
-    if (bits == 64) {
-      page.decoding = TiffDecoding::doubles;
-      page.notes.push_back("64-bit floats, read as 32-bit ones");
+    if (page.inverted && type->kind != TiffSamples::Kind::unsigned_integer)
+      refuse("a picture of " + type->name() + " of which 0 is white");
+    if (!type->plain()) {
+      page.decoding = TiffDecoding::unpack;
+      page.notes.push_back(type->name());
     }
-    page.part.channels = names_of_samples(tiff, photometric, samples, page);
+    if (type->kind == TiffSamples::Kind::signed_integer)
+      page.warnings.push_back(type->name() +
+                              " are read as linear values, the largest as 1; negative ones are kept");
+    name_samples(tiff, photometric, samples, page);
+    declare_tiff_page(tiff, true, page);
     return page;
   }
-  char why[1024] = {};
-  if (TIFFRGBAImageOK(tiff, why) == 0) fail(why);
+  const std::string kind = name_of_photometric(photometric);
+  if (!can_convert(tiff))
+    refuse("a picture of " + kind + " pixels and " + name_of_tiff_samples(bits, format));
   page.attributes.erase(kTiffChannels);
   page.decoding = TiffDecoding::rgba;
   page.part.type = PixelType::uint8;
@@ -233,10 +302,14 @@ TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
   std::uint16_t* extra = nullptr;
   if (TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &extra_count, &extra) == 1 && extra_count > 0) {
     page.part.channels.push_back("A");
+    page.associated = true;  // by libtiff, whatever it was
   }
   check_size(source, width, height, 4);
-  page.notes.push_back("photometric interpretation " + std::to_string(photometric) + " of " +
-                       std::to_string(bits) + " bits, converted to 8-bit RGB");
+  const bool exact = photometric == PHOTOMETRIC_PALETTE || photometric == PHOTOMETRIC_YCBCR;
+  (exact ? page.notes : page.warnings)
+      .push_back(kind + " pixels of " + std::to_string(bits) + " bits, converted to 8-bit RGB" +
+                 (exact ? "" : " without regard to their profile"));
+  declare_tiff_page(tiff, exact, page);
   return page;
 }
 

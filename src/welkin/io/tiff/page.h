@@ -3,17 +3,19 @@
 #include <tiffio.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "welkin/io/format.h"
+#include "welkin/io/tiff/samples.h"
 
 namespace welkin::io {
 
 /// How the samples of a TIFF directory become values.
 enum class TiffDecoding {
   samples,  ///< as PartInfo::type says
-  doubles,  ///< 64-bit floats, narrowed to float
+  unpack,   ///< to floats, by unpack_tiff_samples
   xyz,      ///< LogLuv, which libtiff decodes to CIE XYZ floats
   rgba      ///< libtiff's own conversion to 8-bit RGBA
 };
@@ -23,6 +25,7 @@ struct TiffPage {
   PartInfo part;
   TiffDecoding decoding = TiffDecoding::samples;
   std::uint64_t directory = 0;  ///< byte offset
+  TiffSamples samples;          ///< as they are stored
   int stored_samples = 0;       ///< per pixel, before any conversion
   bool planar = false;
   bool inverted = false;  ///< 0 is white
@@ -31,6 +34,10 @@ struct TiffPage {
   int block_height = 0;
   std::map<std::string, std::string> attributes;
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;
+  Declared declared;  ///< but for its alpha
+  /// Of the channel A: whether colours are multiplied by it; nothing where there is none.
+  std::optional<bool> associated;
 };
 
 /// Parses libtiff's current directory and sets what libtiff must convert while decoding (LogLuv, JPEG).

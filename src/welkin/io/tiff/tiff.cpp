@@ -9,10 +9,12 @@
 #include <cassert>
 #include <cstring>
 #include <functional>
+#include <optional>
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
 #include "welkin/io/decode_pixels.h"
+#include "welkin/io/tiff/failure.h"
 #include "welkin/io/tiff/file.h"
 #include "welkin/io/tiff/page.h"
 #include "welkin/io/unread_formats.h"
@@ -73,7 +75,7 @@ class TiffReader : public FormatReader {
  public:
   explicit TiffReader(const Source& source) : source_(source), memory_{source.bytes} {
     tiff_ = open_tiff_stream(memory_.stream(), "r", source.options.max_bytes, failure_);
-    if (tiff_ == nullptr) fail("the TIFF header is malformed");
+    if (tiff_ == nullptr) fail("its first directory cannot be read");
     constexpr std::size_t kMaxPages = 65535;
     do {
       if (pages_.size() == kMaxPages) fail("more than " + std::to_string(kMaxPages) + " directories");
@@ -91,7 +93,12 @@ class TiffReader : public FormatReader {
     for (const TiffPage& page : pages_) {
       info_.parts.push_back(page.part);
       info_.notes.insert(info_.notes.end(), page.notes.begin(), page.notes.end());
+      for (const std::string& warning : page.warnings) {
+        if (std::count(info_.warnings.begin(), info_.warnings.end(), warning) == 0)
+          info_.warnings.push_back(warning);
+      }
     }
+    declare();
   }
 
   void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
@@ -118,13 +125,41 @@ class TiffReader : public FormatReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& otherwise) const {
-    throw Error(ErrorKind::damaged, source_.name, (failure_.text[0] != 0 ? failure_.text : otherwise));
+  /// `cause`, and what libtiff says of it.
+  [[noreturn]] void fail(const std::string& cause) const {
+    const std::string detail = tiff_failure(failure_.text);
+    throw Error(ErrorKind::damaged, source_.name, detail.empty() ? cause : cause + ": " + detail);
+  }
+
+  /// The first page's declarations, for all; alpha is that of the first page that has any.
+  void declare() {
+    declared_ = pages_.front().declared;
+    const auto with_alpha =
+        std::find_if(pages_.begin(), pages_.end(), [](const TiffPage& page) { return page.associated; });
+    std::optional<bool> associated;
+    if (with_alpha != pages_.end()) associated = with_alpha->associated;
+    if (associated) {
+      const AlphaKind multiplied = info_.colour == Colour::srgb ? AlphaKind::encoded : AlphaKind::associated;
+      declared_.alpha = *associated ? multiplied : AlphaKind::straight;
+    }
+    std::string differ;
+    const auto note = [&](bool same, const std::string& what) {
+      if (!same && differ.find(what) == std::string::npos) differ += (differ.empty() ? "" : " and ") + what;
+    };
+    for (const TiffPage& page : pages_) {
+      note(page.declared.orientation == declared_.orientation, "orientation");
+      note(!page.associated || page.associated == associated, "kind of alpha");
+      note(page.declared.icc == declared_.icc, "ICC profile");
+      note(page.declared.primaries == declared_.primaries, "primaries");
+    }
+    if (!differ.empty())
+      info_.warnings.push_back("its pages differ in " + differ + "; all are read as the first of them says");
   }
 
   bool next_directory() {
     failure_.clear();
-    if (TIFFReadDirectory(tiff_.get()) == 0) fail("a directory cannot be read");
+    if (TIFFReadDirectory(tiff_.get()) == 0)
+      fail("its directory " + std::to_string(pages_.size() + 1) + " cannot be read");
     return true;
   }
 
@@ -132,12 +167,11 @@ class TiffReader : public FormatReader {
   void read_blocks(const TiffPage& page, int plane, const std::function<void(const Block&)>& use) {
     const tmsize_t maximum = page.tiled ? TIFFTileSize(tiff_.get()) : TIFFStripSize(tiff_.get());
     const tmsize_t row = page.tiled ? TIFFTileRowSize(tiff_.get()) : TIFFScanlineSize(tiff_.get());
-    const std::size_t pixel_bytes = stored_pixel_bytes(page);
-    if (maximum <= 0 ||
-        row < static_cast<tmsize_t>(pixel_bytes * static_cast<std::size_t>(page.block_width)) ||
-        row * page.block_height > maximum) {
-      fail("its blocks are malformed");
-    }
+    const std::uint64_t row_bits = static_cast<std::uint64_t>(page.block_width) *
+                                   static_cast<std::uint64_t>(page.planar ? 1 : page.stored_samples) *
+                                   static_cast<std::uint64_t>(page.samples.bits);
+    if (maximum <= 0 || row < static_cast<tmsize_t>((row_bits + 7) / 8) || row * page.block_height > maximum)
+      fail("its strips or tiles are malformed");
     std::vector<std::byte> samples(static_cast<std::size_t>(maximum));
     for (int y = 0; y < page.part.height; y += page.block_height) {
       for (int x = 0; x < page.part.width; x += page.block_width) {
@@ -167,34 +201,26 @@ class TiffReader : public FormatReader {
     }
     const std::size_t needed = block.row_bytes * static_cast<std::size_t>(block.height);
     if (got < 0 || static_cast<std::size_t>(got) < needed) {
-      if (failure_.text[0] != 0) fail("");
-      fail("the block at row " + std::to_string(block.y) + " ends early");
+      const std::string name =
+          "the " + std::string(page.tiled ? "tile" : "strip") + " at row " + std::to_string(block.y);
+      if (failure_.text[0] != 0) fail(name + " cannot be decoded");
+      fail(name + " ends early");
     }
-  }
-
-  static std::size_t stored_pixel_bytes(const TiffPage& page) {
-    const std::size_t value =
-        page.decoding == TiffDecoding::doubles ? sizeof(double) : size_of(page.part.type);
-    return page.planar ? value : value * static_cast<std::size_t>(page.stored_samples);
   }
 
   /// Copies a block's rows into the picture; pixels have srgb.size() samples.
   static void place(const TiffPage& page, const Block& block, std::vector<bool> srgb,
                     std::span<const int> channels, ImageView<float> out) {
     const std::size_t values = static_cast<std::size_t>(block.width) * srgb.size();
-    const PixelDecoder decoder(page.part.type, std::move(srgb));
+    const bool plain = page.decoding == TiffDecoding::samples;
+    const PixelDecoder decoder(plain ? page.part.type : PixelType::float32, std::move(srgb));
     const auto place_row = [&](int y, std::vector<float>& floats) {
       std::byte* row = block.samples + static_cast<std::size_t>(y) * block.row_bytes;
-      if (page.inverted) {
+      if (plain && page.inverted)
         std::transform(row, row + block.row_bytes, row, [](std::byte byte) { return ~byte; });
-      }
-      if (page.decoding != TiffDecoding::samples) {
+      if (!plain) {
         floats.resize(values);
-        for (std::size_t i = 0; i < values; ++i) {
-          floats[i] = page.decoding == TiffDecoding::doubles
-                          ? static_cast<float>(load_native<double>(row + i * sizeof(double)))
-                          : load_native<float>(row + i * sizeof(float));
-        }
+        unpack_tiff_samples(page.samples, page.inverted, row, values, floats.data());
         if (page.decoding == TiffDecoding::xyz) {
           for (std::size_t i = 0; i < values; i += 3) xyz_to_rgb(&floats[i]);
         }
@@ -224,7 +250,7 @@ class TiffReader : public FormatReader {
     if (TIFFReadRGBAImageOriented(tiff_.get(), static_cast<std::uint32_t>(out.width),
                                   static_cast<std::uint32_t>(out.height), raster.data(), orientation,
                                   1) == 0) {
-      fail("libtiff cannot convert the picture to RGB");
+      fail("the picture cannot be decoded");
     }
     if constexpr (std::endian::native == std::endian::big) {
       for (std::uint32_t& pixel : raster) pixel = swap_bytes(pixel);

@@ -5,6 +5,7 @@
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/encode_pixels.h"
 #include "welkin/io/text_attributes.h"
+#include "welkin/io/tiff/failure.h"
 #include "welkin/io/tiff/file.h"
 #include "welkin/io/tiff/tiff.h"
 #include "welkin/io/write_choices.h"
@@ -132,7 +133,8 @@ class Writer {
  private:
   [[noreturn]] void fail() {
     if (output_.thrown) std::rethrow_exception(output_.thrown);
-    throw Error(ErrorKind::bad_request, failure_.text[0] != 0 ? failure_.text : "libtiff failed");
+    const std::string detail = tiff_failure(failure_.text);
+    throw Error(ErrorKind::bad_request, "the TIFF cannot be written" + (detail.empty() ? "" : ": " + detail));
   }
   void check(bool succeeded) {
     if (!succeeded || output_.thrown) fail();
@@ -140,6 +142,12 @@ class Writer {
   template <class... Values>
   void set(std::uint32_t tag, Values... values) {
     check(TIFFSetField(tiff_.get(), tag, values...) == 1);
+  }
+
+  /// Colours in memory are multiplied by alpha, and linear. They are stored so where they stay linear; where
+  /// they are encoded, programs expect whole ones, and the caller has divided them.
+  std::uint16_t alpha_tag() const {
+    return colour_ == Colour::srgb ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_ASSOCALPHA;
   }
 
   void set_tags(const WritePart& part, const Samples& samples) {
@@ -159,7 +167,7 @@ class Writer {
     }
     std::vector<std::uint16_t> extra;
     for (std::size_t k = samples.colours; k < samples.names.size(); ++k) {
-      extra.push_back(samples.names[k] == "A" ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED);
+      extra.push_back(samples.names[k] == "A" ? alpha_tag() : EXTRASAMPLE_UNSPECIFIED);
     }
     if (!extra.empty()) set(TIFFTAG_EXTRASAMPLES, static_cast<int>(extra.size()), extra.data());
     if (!part.name.empty()) set(TIFFTAG_PAGENAME, part.name.c_str());
