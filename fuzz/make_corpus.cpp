@@ -1,14 +1,20 @@
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "welkin/base/error.h"
 #include "welkin/io/image_file.h"
 
-/// Writes small files of every format, type and compression that the library writes: the seeds of the
-/// fuzzers.
+/// Writes small files of every format, type and compression that the library writes, and some that others do:
+/// the seeds of the fuzzers.
 ///
 ///     make_corpus FOLDER      makes FOLDER/exr/…, FOLDER/hdr/…
 namespace {
@@ -117,6 +123,83 @@ void write_seeds(const fs::path& root, const Seeds& seeds) {
   }
 }
 
+std::string contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+void write_file(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// Headers of other writers before flat pixels, of which some look like run codes.
+void write_other_hdr(const fs::path& folder) {
+  const std::vector<std::string> heads = {
+      "Xim format\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 9\n", "oconv a.rad\n\n+X 9 -Y 2\n",
+      "#?RGBE\r\nGAMMA=2.2\r\nPRIMARIES=.64 .33 .3 .6 .15 .06 .3127 .329\r\n\r\n-Y 2 +X 9\r\n",
+      "#?RADIANCE\nFORMAT = 32-bit_rle_xyze\nEXPOSURE=2\nPIXASPECT=2\n\n-Y 2 -X 9\n"};
+  std::string pixels;
+  for (int i = 0; i < 18; ++i)
+    pixels += i == 9 ? std::string("\2\2\0\x09", 4) : std::string(3, i % 5 == 1 ? 1 : 9) + '\x7f';
+  int count = 0;
+  for (const std::string& head : heads)
+    write_file(folder / ("other" + std::to_string(count++) + ".hdr"), head + pixels);
+}
+
+/// Written textures under the numbers of other formats whose texels have as many bytes.
+void write_other_ktx2(const fs::path& folder) {
+  constexpr std::size_t kFormatAt = 12;
+  int count = 0;
+  for (const auto& [type, formats] :
+       {std::pair{io::PixelType::rgb9e5, std::vector<std::uint32_t>{51, 52, 57, 58, 59, 64, 65}},
+        {io::PixelType::half, {91, 92}}}) {
+    const Image image = test_picture(8, 4, 3);
+    const io::WritePart part{"", image.view(), {"R", "G", "B"}};
+    io::WriteOptions options;
+    options.type = type;
+    options.attributes = {{"wTXswizzle", count % 2 == 0 ? "bgr1" : "rrrg"}};
+    const fs::path path = folder / "other.ktx2";
+    io::write(path, {&part, 1}, options);
+    std::string bytes = contents(path);
+    fs::remove(path);
+    const std::size_t key = bytes.find("wTXswizzle");
+    if (key != std::string::npos) bytes[key] = 'K';
+    for (const std::uint32_t format : formats) {
+      std::memcpy(&bytes[kFormatAt], &format, sizeof format);
+      write_file(folder / ("other" + std::to_string(count++) + ".ktx2"), bytes);
+    }
+  }
+}
+
+/// Written pages whose samples are said to be of other bits and formats, no longer ones.
+void write_other_tiff(const fs::path& folder) {
+  const Image image = test_picture(17, 9, 1);
+  const io::WritePart part{"", image.view(), {"Y"}};
+  int count = 0;
+  for (const auto type : {io::PixelType::uint16, io::PixelType::float32}) {
+    io::WriteOptions options;
+    options.type = type;
+    options.compression = "none";
+    const fs::path path = folder / "other.tif";
+    io::write(path, {&part, 1}, options);
+    const std::string bytes = contents(path);
+    fs::remove(path);
+    // Entries of one SHORT: BitsPerSample and SampleFormat.
+    const std::size_t bits = bytes.find(std::string("\2\1\3\0\1\0\0\0", 8)),
+                      format = bytes.find(std::string("\x53\1\3\0\1\0\0\0", 8));
+    if (bits == std::string::npos || format == std::string::npos)
+      throw std::runtime_error("no fields to change");
+    for (const int of : {1, 2, 3}) {
+      for (const int size : {1, 4, 10, 12, 16, 24, 32}) {
+        std::string other = bytes;
+        other[bits + 8] = static_cast<char>(size);
+        other[format + 8] = static_cast<char>(of);
+        write_file(folder / ("other" + std::to_string(count++) + ".tif"), other);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -125,7 +208,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    for (const Seeds& seeds : all_seeds()) write_seeds(argv[1], seeds);
+    const fs::path root = argv[1];
+    for (const Seeds& seeds : all_seeds()) write_seeds(root, seeds);
+    write_other_hdr(root / "hdr");
+    write_other_ktx2(root / "ktx2");
+    write_other_tiff(root / "tiff");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_corpus: %s\n", error.what());
     return 1;
