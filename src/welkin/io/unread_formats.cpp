@@ -47,6 +47,7 @@ constexpr Known kKnown[] = {
     {0, "GIF87a"sv, "a GIF picture", kMagick},
     {0, "GIF89a"sv, "a GIF picture", kMagick},
     {0, "qoif"sv, "a QOI picture", kMagick},
+    {0, "\x53\x80\xf6\x34"sv, "a Softimage picture (PIC)", kMagick},
     {0, "\0\0\1\0"sv, "an icon", kMagick},
     {0, "SDPX"sv, "a DPX picture", "convert it to EXR, for instance by OpenImageIO's `oiiotool IN -o OUT`"},
     {0, "XPDS"sv, "a DPX picture", "convert it to EXR, for instance by OpenImageIO's `oiiotool IN -o OUT`"},

@@ -59,6 +59,7 @@ TEST(UnreadFormats, AreNamedWithWhatConvertsThem) {
       {"8BPS\0\2"s + rest, "(PSB)", "save it as EXR"},
       {"BM\x36\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0"s + rest, "BMP", "magick"},
       {"GIF89a" + rest, "GIF", "magick"},
+      {"\x53\x80\xf6\x34" + rest, "Softimage", "magick"},
       {tga(2, 4, 3, 24), "TGA", "magick"},
       {tga(10, 4, 3, 32), "TGA", "magick"},
       {rest + "TRUEVISION-XFILE.\0"s, "TGA", "magick"},

@@ -106,6 +106,8 @@ TEST(TiffDamage, LibtiffsWordsBecomeOurs) {
             "its data are damaged");
   EXPECT_EQ(tiff_failure("Not a TIFF file, bad version number 43 (0x2b)"), "its header is malformed");
   EXPECT_EQ(tiff_failure("TIFFReadDirectory: Incorrect count for"), "the field of a directory is malformed");
+  EXPECT_EQ(tiff_failure("JPEGSetupDecode: BitsPerSample 12 not allowed for JPEG"),
+            "its JPEG data are of a kind that libtiff does not decode");
   EXPECT_EQ(tiff_failure(""), "");
   EXPECT_EQ(tiff_failure("something new"), "");
 }

@@ -46,6 +46,8 @@ constexpr Meaning kMeanings[] = {
     {"byte count", "its strips or tiles have impossible sizes"},
     {"strip arrays", "its strips or tiles have impossible sizes"},
     {"offset/size for strile", "the places of its strips or tiles lie outside the file"},
+    {"not allowed for JPEG", "its JPEG data are of a kind that libtiff does not decode"},
+    {"nsupported", "its data are of a kind that libtiff does not decode"},
     {"JPEG", "its JPEG data are damaged or of another size than the picture"},
     {"ubsampling", "its chroma subsampling is not read"},
     {"Not enough data", "its data end early"},
