@@ -45,6 +45,12 @@ struct PartInfo {
   int level = 0;                        ///< of a mip pyramid; 0 is the finest
   int layer = 0;                        ///< of an array texture
   int face = 0;                         ///< of a cube texture: +X −X +Y −Y +Z −Z
+  bool deep = false;                    ///< EXR's deep data, which cannot be read
+  /// EXR's views: the one that the part is of, or those whose names are in the channels' names, the first of
+  /// them as channels without one.
+  std::vector<std::string> views = {};
+  std::optional<std::string> envmap = {};  ///< as in FileInfo, where parts can differ in it
+  std::vector<std::string> warnings = {};  ///< as in FileInfo, of this picture alone
 };
 
 /// How the pictures of two eyes lie in one picture. As Google and YouTube have it, the left eye's is on top,
@@ -87,7 +93,8 @@ struct FileInfo {
   Colour colour = Colour::linear;  ///< the transfer function that reading will undo
   /// Text metadata: EXR string attributes, PNG tEXt, .hdr header lines…
   std::map<std::string, std::string> attributes;
-  std::optional<std::string> envmap;  ///< EXR's standard `envmap` attribute: `latlong` or `cube`
+  std::optional<std::string> envmap;  ///< EXR's standard `envmap` attribute: `latlong` or `cube`; of the
+                                      ///< first part that has one
   std::optional<Panorama> panorama;   ///< what it says of the panorama that it shows
   std::vector<std::string> notes;     ///< what a person would like to know: tiles, interlacing…
   /// What reading changes, guesses or leaves undone, so that the picture may not be the one that is meant.

@@ -59,6 +59,34 @@ std::optional<std::string> take_text(std::string_view type, Cursor& value) {
   return std::nullopt;
 }
 
+/// Strings, each behind its length.
+std::vector<std::string> take_texts(Cursor& value) {
+  std::vector<std::string> texts;
+  while (value.left() > 0) {
+    const auto bytes = value.take_bytes(value.take<std::uint32_t>());
+    texts.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  return texts;
+}
+
+Chromaticities take_chromaticities(Cursor value) {
+  Chromaticities c{};
+  for (double(*point)[2] : {&c.red, &c.green, &c.blue, &c.white}) {
+    for (double& coordinate : *point) coordinate = static_cast<double>(value.take<float>());
+  }
+  return c;
+}
+
+/// Compressions that OpenEXR got after version 3.1, by name.
+[[noreturn]] void refuse_compression(std::uint8_t number, const Cursor& value) {
+  constexpr std::uint8_t kHtj2k256 = 10, kHtj2k32 = 11;
+  const bool htj2k = number == kHtj2k256 || number == kHtj2k32;
+  value.refuse(
+      std::string(htj2k ? "htj2k compression, of OpenEXR 3.4, is"
+                        : "a compression newer than OpenEXR 3.4 is") +
+      " not read: write the file with another, as `oiiotool IN.exr --compression zip -o OUT.exr` does");
+}
+
 constexpr std::array kStructural{std::string_view("channels"),
                                  std::string_view("chunkCount"),
                                  std::string_view("compression"),
@@ -138,8 +166,7 @@ bool AttributeParser::parse_structure(std::string_view name, std::string_view ty
   } else if (name == "compression") {
     expect("compression");
     const auto number = value.take<std::uint8_t>();
-    if (number > static_cast<std::uint8_t>(Compression::dwab))
-      value.fail("compression number " + std::to_string(number) + " is not known");
+    if (number > static_cast<std::uint8_t>(Compression::dwab)) refuse_compression(number, value);
     part_.compression = static_cast<Compression>(number);
     has_compression_ = true;
   } else if (name == "dataWindow") {
@@ -159,8 +186,11 @@ bool AttributeParser::parse_structure(std::string_view name, std::string_view ty
   } else if (name == "envmap") {
     expect("envmap");
     const auto kind = value.take<std::uint8_t>();
-    if (kind > 1) value.fail("envmap number " + std::to_string(kind) + " is not known");
-    part_.envmap = kind == 0 ? "latlong" : "cube";
+    if (kind > 1) {
+      part_.warnings.push_back("attribute 'envmap' is neither a lat-long nor a cube, and is ignored");
+    } else {
+      part_.envmap = kind == 0 ? "latlong" : "cube";
+    }
   } else if (name == "name") {
     expect("string");
     part_.name = *take_text(type, value);
@@ -171,6 +201,16 @@ bool AttributeParser::parse_structure(std::string_view name, std::string_view ty
     expect("int");
     part_.own_levels = value.take<std::int32_t>();
     if (part_.own_levels < 1) value.fail("attribute '" + std::string(name) + "' is not a number of levels");
+  } else if (name == "pixelAspectRatio" && type == "float") {
+    part_.pixel_aspect = value.take<float>();
+  } else if (name == "view" && type == "string") {
+    if (auto text = take_text(type, value); text && !text->empty()) part_.views = {*text};
+  } else if (name == "multiView" && type == "stringvector") {
+    part_.views = take_texts(value);
+  } else if (name == "chromaticities" && type == "chromaticities") {
+    // Also shown as text, so a cursor of its own.
+    part_.chromaticities = take_chromaticities(Cursor(value));
+    return false;
   } else if (name == "chunkCount") {
     expect("int");
     chunk_count_ = value.take<std::uint32_t>();

@@ -54,6 +54,11 @@ class Cursor {
     return text;
   }
 
+  /// Of what is right but not read here.
+  [[noreturn]] void refuse(const std::string& cause) const {
+    throw Error(ErrorKind::unsupported, std::string(name_), cause);
+  }
+
   [[noreturn]] void fail(const std::string& cause) const {
     throw Error(ErrorKind::damaged, std::string(name_), cause + " (byte " + std::to_string(offset_) + ")");
   }

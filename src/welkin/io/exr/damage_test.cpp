@@ -56,6 +56,54 @@ TEST(ExrDamage, EveryTruncationIsAnError) {
   }
 }
 
+/// Layers, luminance with chroma, levels rounded up, parts with views and windows of their own.
+std::vector<std::vector<std::byte>> unusual_files(const Folder& folder) {
+  const Imath::Box2i window({0, 0}, {40, 37});
+  std::vector<std::vector<TestPart>> files;
+  const auto half = [](const std::vector<std::string>& names) {
+    std::map<std::string, Imf::PixelType> channels;
+    for (const std::string& name : names) channels[name] = Imf::HALF;
+    return channels;
+  };
+  files.push_back(
+      {part_of(window, window, Imf::ZIP_COMPRESSION, half({"a.b.R", "a.b.G", "a.b.B", "Z", "..", "x."}))});
+  files.push_back({part_of(window, window, Imf::PIZ_COMPRESSION, half({"Y", "RY", "BY", "A"}))});
+  files.push_back({part_of(window, window, Imf::ZIP_COMPRESSION, half({"R", "G", "B"}))});
+  make_tiled(files.back()[0], 16, 16, Imf::MIPMAP_LEVELS, Imf::ROUND_UP);
+  files.push_back({part_of(window, {{-5, -5}, {20, 20}}, Imf::RLE_COMPRESSION, half({"Z"})),
+                   part_of(window, {{30, 10}, {45, 37}}, Imf::ZIPS_COMPRESSION, half({"R", "G", "B"}))});
+  for (std::size_t i = 0; i < 2; ++i) {
+    files.back()[i].header.setName("part" + std::to_string(i));
+    files.back()[i].header.setView(i == 0 ? "left" : "right");
+  }
+  std::vector<std::vector<std::byte>> all;
+  for (const auto& parts : files) {
+    write_file(folder / "unusual.exr", parts);
+    all.push_back(bytes_of_file(folder / "unusual.exr"));
+  }
+  return all;
+}
+
+TEST(ExrDamage, TruncationsAndChangesOfUnusualFiles) {
+  const Folder folder;
+  std::size_t refused = 0;
+  for (const auto& bytes : unusual_files(folder)) {
+    ASSERT_EQ(failure(bytes), "");
+    for (std::size_t size = 0; size < bytes.size(); size += size < 900 ? 3 : 53) {
+      const std::vector<std::byte> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+      ASSERT_NE(failure(cut), "") << "cut to " << size << " of " << bytes.size();
+    }
+    for (std::size_t at = 0; at < bytes.size(); at += at < 900 ? 1 : 61) {
+      for (const int value : {0x00, 0x7f, 0xff}) {
+        auto changed = bytes;
+        changed[at] = static_cast<std::byte>(value);
+        refused += !failure(changed).empty();
+      }
+    }
+  }
+  EXPECT_GT(refused, 1000u);
+}
+
 TEST(ExrDamage, ATruncatedChunkNamesItsRow) {
   const Folder folder;
   auto bytes = small_file(folder, Imf::ZIP_COMPRESSION, false);

@@ -158,7 +158,12 @@ std::optional<Part> parse_header(const Source& source, Cursor& cursor, std::uint
   part.deep = (flags & kDeepFlag && !multi_part) || kind == "deepscanline" || kind == "deeptile";
   part.tiled = multi_part ? kind == "tiledimage" || kind == "deeptile" : (flags & kTiledFlag) != 0;
   if (multi_part && !part.deep && !part.tiled && kind != "scanlineimage")
-    cursor.fail("part type '" + kind + "' is not known");
+    cursor.fail(kind.empty() ? "attribute 'type' is missing" : "part type '" + kind + "' is not known");
+  const char* const flagged = part.tiled ? "tiledimage" : "scanlineimage";
+  if (!multi_part && !part.deep && !kind.empty() && kind != flagged) {
+    part.warnings.push_back("attribute 'type' says '" + kind + "', but the flags of the file '" + flagged +
+                            "': these are followed");
+  }
   if (part.tiled && !attributes.has_tiles()) cursor.fail("attribute 'tiles' is missing");
 
   check_sizes(source, part, cursor);
@@ -230,13 +235,26 @@ Window Part::level_window(int level) const {
           static_cast<int>(data.min_y + height - 1)};
 }
 
+int Part::index_of(std::string_view channel) const {
+  const auto found = std::find_if(channels.begin(), channels.end(),
+                                  [&](const StoredChannel& each) { return each.name == channel; });
+  return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
+}
+
+bool Part::sampled(std::string_view channel, int step) const {
+  const int index = index_of(channel);
+  if (index < 0) return false;
+  const StoredChannel& stored = channels[static_cast<std::size_t>(index)];
+  return stored.x_sampling == step && stored.y_sampling == step;
+}
+
 bool Part::luminance_chroma() const {
-  const auto sampled = [&](std::string_view name, int step) {
-    return std::any_of(channels.begin(), channels.end(), [&](const StoredChannel& c) {
-      return c.name == name && c.x_sampling == step && c.y_sampling == step;
-    });
-  };
   return sampled("Y", 1) && sampled("RY", 2) && sampled("BY", 2);
+}
+
+bool Part::full_chroma() const {
+  const bool rgb = index_of("R") >= 0 && index_of("G") >= 0 && index_of("B") >= 0;
+  return !rgb && sampled("Y", 1) && sampled("RY", 1) && sampled("BY", 1);
 }
 
 int level_count(int width, int height) {

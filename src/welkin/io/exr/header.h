@@ -57,6 +57,10 @@ struct Part {
   std::uint64_t chunk_count = 0;                  ///< its entries, all levels
   std::map<std::string, std::string> attributes;  ///< text and simple numbers; no structural ones
   std::optional<std::string> envmap;
+  std::vector<std::string> views;  ///< the part's, or those of its channels' names
+  float pixel_aspect = 1;
+  std::optional<Chromaticities> chromaticities;
+  std::vector<std::string> warnings;  ///< of what the header says and is not obeyed
   int own_levels = 0;  ///< of a mip pyramid, those that its writer was given; 0 when that is not said
 
   std::size_t bytes_per_pixel() const;
@@ -77,9 +81,14 @@ struct Part {
   Window level_window(int level) const;
   /// Y with RY and BY at half the resolution: luminance and chroma in place of R G B.
   bool luminance_chroma() const;
+  /// The same at the full resolution, which the format's writers don't make but its definition allows.
+  bool full_chroma() const;
+  /// The number of the channel of that name, −1 when there is none.
+  int index_of(std::string_view channel) const;
 
  private:
   std::uint64_t chunk_width_64() const { return static_cast<std::uint64_t>(chunk_width()); }
+  bool sampled(std::string_view channel, int step) const;
   std::uint64_t chunk_height_64() const { return static_cast<std::uint64_t>(chunk_height()); }
 };
 

@@ -169,7 +169,10 @@ void LibraryPart::read(int level, std::uint64_t row, const Destination& destinat
 void read_luminance_chroma(std::span<const std::byte> bytes, const std::string& name, const File& file,
                            const Destination& destination, int& row) {
   if (file.multi_part)
-    throw Error(ErrorKind::unsupported, "luminance and chroma channels are read in single-part files only");
+    throw Error(
+        ErrorKind::unsupported,
+        "luminance and subsampled chroma are read in files of one part only; `exrmultipart -separate` "
+        "makes such files");
   const Part& part = file.parts[0];
   SpanStream stream(bytes, name);
   Imf::RgbaInputFile input(stream, 0);

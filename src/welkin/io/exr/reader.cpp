@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdio>
 #include <new>
 
 #include "welkin/base/error.h"
 #include "welkin/io/exr/chunk.h"
+#include "welkin/io/exr/colour.h"
 #include "welkin/io/exr/header.h"
 #include "welkin/io/exr/library.h"
 #include "welkin/io/exr/writer.h"
@@ -33,10 +35,9 @@ std::vector<int> reported_order(const Part& part) {
 
 std::vector<std::string> reported_names(const Part& part) {
   std::vector<std::string> names;
-  if (part.luminance_chroma()) {
+  if (part.luminance_chroma() || part.full_chroma()) {
     names = {"R", "G", "B"};
-    if (std::any_of(part.channels.begin(), part.channels.end(), [](const auto& c) { return c.name == "A"; }))
-      names.push_back("A");
+    if (part.index_of("A") >= 0) names.push_back("A");
     return names;
   }
   for (const int index : reported_order(part))
@@ -75,6 +76,7 @@ std::vector<std::string> notes_on(const Part& part, int levels) {
     const bool one_of_many = part.level_mode != LevelMode::one && levels == 1;
     notes.push_back("tiles of " + std::to_string(part.tile_width) + "x" + std::to_string(part.tile_height) +
                     kModes[static_cast<std::size_t>(part.level_mode)] +
+                    (part.level_mode != LevelMode::one && part.round_up ? ", sizes rounded up" : "") +
                     (one_of_many ? " (level 0 is read)" : ""));
   }
   if (part.data != part.display) {
@@ -84,7 +86,28 @@ std::vector<std::string> notes_on(const Part& part, int levels) {
   }
   if (part.luminance_chroma())
     notes.push_back("luminance and subsampled chroma, converted to R G B in half precision");
+  if (part.full_chroma()) notes.push_back("luminance and chroma, converted to R G B");
   return notes;
+}
+
+std::vector<std::string> warnings_on(const Part& part) {
+  std::vector<std::string> warnings = part.warnings;
+  if (intersection(part.data, part.display).empty()) {
+    warnings.push_back("data window " + text_of(part.data) + " lies outside the display window " +
+                       text_of(part.display) + ": all texels are 0");
+  }
+  if (part.pixel_aspect != 1) {
+    char aspect[40];
+    std::snprintf(aspect, sizeof aspect, "%g", static_cast<double>(part.pixel_aspect));
+    warnings.push_back("the pixels' aspect ratio is " + std::string(aspect) + ", which is not obeyed");
+  }
+  if (part.luminance_chroma() || part.full_chroma()) {
+    for (const StoredChannel& channel : part.channels) {
+      if (channel.name != "Y" && channel.name != "RY" && channel.name != "BY" && channel.name != "A")
+        warnings.push_back("channel '" + channel.name + "' beside luminance and chroma is left out");
+    }
+  }
+  return warnings;
 }
 
 class ExrReader final : public FormatReader {
@@ -94,6 +117,7 @@ class ExrReader final : public FormatReader {
     info_.bytes = source.bytes.size();
     // Parts of a file that has several need not have as many levels, so only their finest are pictures.
     if (!file_.multi_part) info_.levels = file_.parts[0].levels();
+    declare_colour(file_.parts, declared_);
     for (const Part& part : file_.parts) {
       for (int level = 0; level < info_.levels; ++level) {
         const Window window = level == 0 ? part.display : part.level_window(level);
@@ -101,6 +125,11 @@ class ExrReader final : public FormatReader {
                                static_cast<int>(window.width()), static_cast<int>(window.height()),
                                reported_names(part), reported_type(part),
                                std::string(name_of(part.compression)), level});
+        PartInfo& picture = info_.parts.back();
+        picture.deep = part.deep;
+        picture.views = part.views;
+        picture.envmap = part.envmap;
+        picture.warnings = warnings_on(part);
       }
       info_.attributes.insert(part.attributes.begin(), part.attributes.end());
       if (!info_.envmap) info_.envmap = part.envmap;
@@ -117,9 +146,20 @@ class ExrReader final : public FormatReader {
     assert(out.width == info.width && out.height == info.height);
     assert(static_cast<std::size_t>(out.channels) == channels.size());
     if (part.deep)
-      throw Error(ErrorKind::unsupported, name_,
-                  "deep data cannot be read; flatten it to an ordinary image first");
+      throw Error(
+          ErrorKind::unsupported, name_,
+          "deep data cannot be read; flatten it first, as `oiiotool IN.exr --flatten -o OUT.exr` does");
 
+    if (part.full_chroma()) {
+      Image stored(out.width, out.height, part.index_of("A") >= 0 ? 4 : 3);
+      Destination destination{stored.view(), {}};
+      for (const char* name : {"Y", "RY", "BY", "A"}) {
+        if (part.index_of(name) >= 0) destination.channels.push_back(part.index_of(name));
+      }
+      decode_stored(part_index, info.level, destination);
+      convert_chroma(part, stored.view(), channels, out);
+      return;
+    }
     Destination destination{out, {}};
     const std::vector<int> order = reported_order(part);
     for (const int channel : channels) {
@@ -128,11 +168,17 @@ class ExrReader final : public FormatReader {
                                                              : order[static_cast<std::size_t>(channel)]);
     }
 
-    if (info.level > 0) {
-      read_level(part, info.level, destination);
+    decode_stored(part_index, info.level, destination);
+  }
+
+ private:
+  void decode_stored(std::size_t part_index, int level, const Destination& destination) const {
+    const Part& part = file_.parts[part_index];
+    if (level > 0) {
+      read_level(part, level, destination);
       return;
     }
-    clear_outside(part, out);
+    clear_outside(part, destination.out);
     if (part.luminance_chroma()) {
       read_luminance(part, destination);
     } else if (unpacks_here(part.compression)) {
@@ -142,7 +188,6 @@ class ExrReader final : public FormatReader {
     }
   }
 
- private:
   static void clear_outside(const Part& part, const ImageView<float>& out) {
     const Window seen = intersection(part.data, part.display);
     for (int y = 0; y < out.height; ++y) {
