@@ -102,6 +102,7 @@ void Bake::run() {
   Map source = read_bake_source(in, read, sanitize ? Faults::repaired : Faults::refused);
   turn_world(source, turn);
   if (!options.keep_alpha && source.channel_names == default_channel_names(4)) source = without_alpha(source);
+  fit_channels_to(source, out, write_options);
   const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
   if (!verify.empty()) check_verifiable(shape);
   report.read_seconds = clock.lap();

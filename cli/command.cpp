@@ -126,7 +126,8 @@ void ReadFlags::add(CLI::App& command) {
       ->check(CLI::IsMember({"convert", "keep"}))
       ->capture_default_str();
   command.add_option("--channels", channels,
-                     "Channels to read, by name: R,G,B. Default: R,G,B and A, or Y, or the first three");
+                     "Channels to read, by name: R,G,B. Default: R,G,B and A of the layer, or Y, or the "
+                     "first three");
   command.add_option(
       "--eye", eye,
       "Of a picture that holds two eyes' pictures, the one to read: left, right. Default: left, "
@@ -135,7 +136,14 @@ void ReadFlags::add(CLI::App& command) {
                      "How two eyes' pictures lie in the input's: none, top-bottom, left-right. Default: what "
                      "the file declares, else by its aspect where --eye is given");
   command
-      .add_option("--part", part, "Which picture of a file with several, or which cube of an array (from 0)")
+      .add_option("--layer", layer,
+                  "Layer to read: what its channels' names have before the last dot, or some of that; or a "
+                  "part's or a view's name (see `welkin info`). Default: the picture with colour")
+      ->check([](const std::string& name) { return name.empty() ? "is empty" : ""; }, "");
+  command
+      .add_option("--part", part,
+                  "Which picture of a file with several, or which cube of an array (from 0). Default: the "
+                  "picture with colour")
       ->check(CLI::Range(0, 1 << 30));
   command
       .add_option("--from-border", border,
@@ -174,7 +182,8 @@ ReadMapOptions ReadFlags::parse() const {
     options.stereo = kinds[found - names.begin()];
   }
   options.border = border;
-  options.part = static_cast<std::size_t>(part);
+  options.layer = layer;
+  if (part) options.part = static_cast<std::size_t>(*part);
   options.image.colour = parse_colour("--colour", colour);
   options.image.keep_primaries = primaries == "keep";
   if (!convention.empty())
@@ -295,6 +304,11 @@ void check_output_levels(const std::string& path, const MapShape& shape, ChartSi
 
 int levels_of(const MapFileInfo& info) {
   return std::max(1, static_cast<int>(info.levels.size()));
+}
+
+void fit_channels_to(Map& map, const std::string& path, const WriteMapOptions& options, bool told) {
+  const std::vector<std::string> notes = fit_channels(map, path, options.image);
+  for (std::size_t i = 0; i < notes.size() && !told; ++i) print_warning(path, notes[i]);
 }
 
 void report_losses(const std::string& path, const io::WriteReport& report) {

@@ -63,9 +63,9 @@ Matrix3 parse_rotation(std::string_view option, const std::string& text);
 /// Options of every command that reads a map.
 struct ReadFlags {
   int border = 0;
-  std::string from, faces, convention, colour = "auto", primaries = "convert", channels;
+  std::string from, faces, convention, colour = "auto", primaries = "convert", channels, layer;
   std::string eye, stereo;
-  int part = 0;
+  std::optional<int> part;
   std::optional<int> level;
   bool warn = true;  ///< on stderr of what the files' readers warn of
 
@@ -106,6 +106,9 @@ void check_output_levels(const std::string& path, const MapShape& shape, ChartSi
 
 /// The file's levels: 1 also where the shape is unknown.
 int levels_of(const MapFileInfo& info);
+
+/// Makes the map's channels those that the file can hold (fit_channels), and says so on stderr unless `told`.
+void fit_channels_to(Map& map, const std::string& path, const WriteMapOptions& options, bool told = false);
 
 /// Warns on stderr of values that a format could not hold.
 void report_losses(const std::string& path, const io::WriteReport& report);

@@ -35,9 +35,23 @@ bool is_texture(const io::FileInfo& file) {
   return file.format == "ktx2";
 }
 
+/// The number that --part takes.
+std::size_t part_read(const MapFileInfo& info) {
+  const auto read = info.image.parts.begin() + static_cast<std::ptrdiff_t>(info.picture);
+  return static_cast<std::size_t>(std::count_if(info.image.parts.begin(), read,
+                                                [](const io::PartInfo& part) { return part.level == 0; }));
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
 ordered_json header_of(const std::string& path, const MapFileInfo& info) {
   ordered_json parts = ordered_json::array();
-  for (const io::PartInfo& part : info.image.parts) {
+  for (std::size_t i = 0; i < info.image.parts.size(); ++i) {
+    const io::PartInfo& part = info.image.parts[i];
     if (part.level > 0) continue;
     parts.push_back({{"name", part.name},
                      {"width", part.width},
@@ -45,11 +59,17 @@ ordered_json header_of(const std::string& path, const MapFileInfo& info) {
                      {"channels", part.channels},
                      {"type", name_of(part.type)},
                      {"compression", part.compression}});
+    if (!part.views.empty()) parts.back()["views"] = part.views;
+    for (const MapLayer& layer : info.layers) {
+      if (layer.picture == i && !layer.name.empty())
+        parts.back()["layers"].push_back({{"name", layer.name}, {"channels", layer.channels}});
+    }
   }
   ordered_json report{{"file", path},
                       {"format", info.image.format},
                       {"bytes", info.image.bytes},
                       {"parts", parts},
+                      {"read", {{"part", part_read(info)}, {"channels", info.channels}}},
                       {"colour", info.image.colour == io::Colour::srgb ? "srgb" : "linear"},
                       {"notes", info.image.notes},
                       {"warnings", info.image.warnings},
@@ -115,6 +135,13 @@ ordered_json statistics_of(const MapStatistics& s) {
   return report;
 }
 
+/// Of a layer's channels, what stands behind its name.
+std::vector<std::string> short_names(const MapLayer& layer) {
+  std::vector<std::string> names;
+  for (const std::string& channel : layer.channels) names.push_back(channel.substr(layer.name.size() + 1));
+  return names;
+}
+
 void print_texture(const io::FileInfo& file) {
   if (!is_texture(file)) return;
   std::string kind = file.faces == 6 ? "cube" : "2-D";
@@ -139,15 +166,27 @@ void print_header(const std::string& path, const MapFileInfo& info) {
   fmt::print("  format            {}, {} bytes, {} values\n", info.image.format, info.image.bytes,
              info.image.colour == io::Colour::srgb ? "sRGB" : "linear");
   print_texture(info.image);
-  for (const io::PartInfo& part : info.image.parts) {
+  bool layers = false;
+  for (std::size_t i = 0; i < info.image.parts.size(); ++i) {
+    const io::PartInfo& part = info.image.parts[i];
     // Faces, layers and levels of a texture are alike, except in size.
     const bool alike = is_texture(info.image) || info.image.levels > 1;
     if (alike && (part.level > 0 || part.layer > 0 || part.face > 0)) continue;
-    std::string channels;
-    for (const std::string& channel : part.channels) channels += (channels.empty() ? "" : " ") + channel;
     fmt::print("  picture{:<10} {}×{}, {} of {}, compression {}\n",
                part.name.empty() || alike ? "" : " " + printable(part.name), part.width, part.height,
-               printable(channels), name_of(part.type), part.compression);
+               printable(listed(part.channels)), name_of(part.type), part.compression);
+    if (!part.views.empty()) fmt::print("  views             {}\n", printable(listed(part.views)));
+    for (const MapLayer& layer : info.layers) {
+      if (layer.picture != i || layer.name.empty()) continue;
+      fmt::print("  layer             {}: {}\n", printable(layer.name),
+                 printable(listed(short_names(layer))));
+      layers = true;
+    }
+  }
+  const bool faces = info.shape && info.shape->layout.kind == LayoutKind::layers;
+  if (layers || (info.image.parts.size() > 1 && info.image.levels == 1 && !faces)) {
+    fmt::print("  read              part {}, channels {}\n", part_read(info),
+               printable(listed(info.channels)));
   }
   for (const std::string& note : info.image.notes) fmt::print("  note              {}\n", note);
   for (const std::string& warning : info.image.warnings)

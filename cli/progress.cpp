@@ -71,8 +71,11 @@ void end_progress() {
 
 void print_warnings(const std::string& path, const std::vector<std::string>& warnings) {
   if (quiet || !warned.insert(path).second) return;
-  for (const std::string& warning : warnings)
-    print_message(fmt::format("welkin: {}: {}\n", printable(path), printable(warning)));
+  for (const std::string& warning : warnings) print_warning(path, warning);
+}
+
+void print_warning(const std::string& path, const std::string& warning) {
+  if (!quiet) print_message(fmt::format("welkin: {}: {}\n", printable(path), printable(warning)));
 }
 
 void set_quiet(bool is_quiet) {

@@ -14,6 +14,8 @@ void print_message(const std::string& text);
 /// so.
 void print_warnings(const std::string& path, const std::vector<std::string>& warnings);
 void set_quiet(bool quiet);
+/// One warning, unless set_quiet says so.
+void print_warning(const std::string& path, const std::string& warning);
 
 enum class ProgressMode { automatic, always, never };
 

@@ -42,14 +42,25 @@ bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
   return std::fabs(wide - chart.width) <= std::max(1.0, 0.01 * wide) || std::fabs(high - chart.height) < 1;
 }
 
+/// Whether the parts can be the faces of a cube: six squares that are alike, not six passes of a picture.
+bool are_six_faces(const io::FileInfo& file) {
+  const std::vector<std::size_t> pictures = pictures_of(file, 0);
+  const io::PartInfo& first = file.parts[pictures[0]];
+  return pictures.size() == 6 && first.width == first.height &&
+         std::all_of(pictures.begin(), pictures.end(), [&](std::size_t i) {
+           const io::PartInfo& part = file.parts[i];
+           return part.width == first.width && part.height == first.height && !part.deep &&
+                  part.channels.size() == first.channels.size();
+         });
+}
+
 /// What a picture's size, or the kind of texture, suggests.
 std::optional<std::pair<std::string, std::string>> guess(const io::FileInfo& file, ChartSize picture,
                                                          bool pattern) {
   const auto [width, height] = picture;
   if (pattern) return std::pair("cube:faces", "six files");
   if (file.faces == 6) return std::pair("cube:layers", "a cube texture");
-  if (pictures_of(file, 0).size() == 6 && width == height)
-    return std::pair("cube:layers", "six square parts");
+  if (are_six_faces(file)) return std::pair("cube:layers", "six square parts");
   const auto ratio = [width = width, height = height](int across, int down) {
     return static_cast<long>(width) * down == static_cast<long>(height) * across;
   };
@@ -84,13 +95,8 @@ std::string declared_by_envmap(const std::string& envmap) {
 
 /// Whether another program turned our map into the one that its `envmap` declares, and copied our declaration
 /// along.
-bool is_copied(const std::string& declared, const io::FileInfo& file) {
-  return file.envmap && !declared.starts_with(declared_by_envmap(*file.envmap));
-}
-
-/// Whether the file's pictures are the charts of a map: faces or layers of a texture.
-bool is_array(const io::FileInfo& file) {
-  return file.faces > 1 || file.layers > 1;
+bool is_copied(const std::string& declared, const io::PartInfo& part) {
+  return part.envmap && !declared.starts_with(declared_by_envmap(*part.envmap));
 }
 
 /// The shape as text, and the faces, with the reason for them; the text is empty when nothing suggests one.
@@ -98,9 +104,11 @@ struct Declaration {
   std::string shape, faces, reason;
 };
 
-/// The picture is one eye's where there are two.
-Declaration declaration_for(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
+/// Of the part that is read; the picture is one eye's where there are two.
+Declaration declaration_for(const fs::path& path, const MapFileInfo& info, const ReadMapOptions& options,
                             ChartSize picture, std::vector<std::string>& warnings) {
+  const io::FileInfo& file = info.image;
+  const io::PartInfo& part = file.parts[info.picture];
   const bool pattern = is_pattern(path);
   if (options.shape) {
     std::string shape = *options.shape;
@@ -110,7 +118,7 @@ Declaration declaration_for(const fs::path& path, const io::FileInfo& file, cons
     return {shape, options.faces, "as asked"};
   }
   const std::string declared = attribute(file, kShapeKey);
-  if (!declared.empty() && !is_copied(declared, file)) {
+  if (!declared.empty() && !is_copied(declared, part)) {
     return {declared, options.faces.empty() ? attribute(file, kFacesKey) : options.faces,
             "declared by the file"};
   }
@@ -118,8 +126,8 @@ Declaration declaration_for(const fs::path& path, const io::FileInfo& file, cons
     const std::string shape = shape_of(*file.panorama, picture, warnings);
     if (!shape.empty()) return {shape, options.faces, kByPanorama};
   }
-  if (file.envmap) {
-    const std::string name = declared_by_envmap(*file.envmap);
+  if (part.envmap) {
+    const std::string name = declared_by_envmap(*part.envmap);
     const std::string_view layout = sphere::AnyParameterization::make(name).traits().layout;
     return {name + (layout.empty() ? "" : ":" + std::string(layout)), options.faces,
             "declared by the envmap attribute"};
@@ -129,18 +137,12 @@ Declaration declaration_for(const fs::path& path, const io::FileInfo& file, cons
   return {"", options.faces, "the file declares no parameterization, and its size suggests none"};
 }
 
-/// The file's picture that the map is in, or the first of several.
-const io::PartInfo& picture_for(const io::FileInfo& file, const ReadMapOptions& options) {
-  const std::vector<std::size_t> pictures = pictures_of(file, 0);
-  return file.parts[pictures[options.part < pictures.size() ? options.part : 0]];
-}
-
 /// Width over height of one eye's picture, were it of the shape that is asked for, or declared, or a
 /// lat-long.
-double aspect_of_eye(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
-                     const io::PartInfo& part) {
+double aspect_of_eye(const fs::path& path, const MapFileInfo& info, const ReadMapOptions& options) {
   std::vector<std::string> unused;
-  const std::string text = declaration_for(path, file, options, {part.width, part.height}, unused).shape;
+  const io::PartInfo& part = info.image.parts[info.picture];
+  const std::string text = declaration_for(path, info, options, {part.width, part.height}, unused).shape;
   if (text.empty()) return 2;
   const MapShape shape = parse_map_shape(text);
   const Layout grid = grid_of_picture(shape.layout);
@@ -156,8 +158,17 @@ MapShape shape_from(const Declaration& declaration, const Matrix3& orientation) 
   return shape;
 }
 
+/// Throws when there is no part of that number among so many.
+void check_part(const fs::path& path, std::size_t parts, std::optional<std::size_t> asked) {
+  if (asked.value_or(0) < parts) return;
+  throw Error(ErrorKind::bad_request, path.string(),
+              "has no part " + std::to_string(*asked) + " (parts are 0 to " + std::to_string(parts - 1) +
+                  ")");
+}
+
 /// Throws when the layout asks for other files or for more pictures than there are.
-void check_pictures(const fs::path& path, const io::FileInfo& file, const MapShape& shape, std::size_t part) {
+void check_pictures(const fs::path& path, const io::FileInfo& file, const MapShape& shape,
+                    std::optional<std::size_t> part) {
   const LayoutKind kind = shape.layout.kind;
   const std::string name = path.string();
   if (kind == LayoutKind::files && !is_pattern(path)) {
@@ -177,19 +188,14 @@ void check_pictures(const fs::path& path, const io::FileInfo& file, const MapSha
                 shape.text() + " needs " + std::to_string(needed) + " parts, the file has " +
                     std::to_string(pictures));
   }
-  if (part >= pictures / needed) {
-    throw Error(ErrorKind::bad_request, name,
-                "has no part " + std::to_string(part) + " (parts are 0 to " +
-                    std::to_string(pictures / needed - 1) + ")");
-  }
+  check_part(path, pictures / needed, part);
 }
 
 /// Charts of level 0. Throws when the pictures' size is none of the shape.
-ChartSize finest_chart(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
-                       MapFileInfo& info) {
+ChartSize finest_chart(const fs::path& path, const ReadMapOptions& options, MapFileInfo& info) {
   const MapShape per_picture{info.shape->parameterization, grid_of_picture(info.shape->layout)};
   const int columns = per_picture.layout.columns, rows = per_picture.layout.rows;
-  const io::PartInfo& part = file.parts[pictures_of(file, 0)[first_picture(info.shape->layout, options)]];
+  const io::PartInfo& part = info.image.parts[info.picture];
   const ChartSize picture = eye_size(info.stereo, part.width, part.height);
   const std::string size = std::to_string(picture.width) + "×" + std::to_string(picture.height);
   const int width = picture.width - 2 * info.border * columns;
@@ -200,7 +206,7 @@ ChartSize finest_chart(const fs::path& path, const io::FileInfo& file, const Rea
   }
   // Texels that aren't square were asked for, where the file gives the very size of its charts.
   const std::optional<ChartSize> divided = chart_size_in(per_picture.layout, width, height);
-  if (divided && text_of(*divided) == attribute(file, kChartKey)) return *divided;
+  if (divided && text_of(*divided) == attribute(info.image, kChartKey)) return *divided;
   ChartSize chart;
   if (size_fits(per_picture, width, height, chart)) return chart;
   char aspect[32];
@@ -229,10 +235,9 @@ ChartSize finest_chart(const fs::path& path, const io::FileInfo& file, const Rea
 /// Charts of the levels that hold the map: as many as the file declares, and as are pictures of charts half
 /// as large as the level before, by either way of rounding. A picture of several charts can have further
 /// levels, down to one texel, which are none of the map.
-std::vector<ChartSize> level_charts(const io::FileInfo& file, const ReadMapOptions& options,
-                                    const MapFileInfo& info, ChartSize finest) {
+std::vector<ChartSize> level_charts(const MapFileInfo& info, std::size_t first, ChartSize finest) {
+  const io::FileInfo& file = info.image;
   const Layout grid = grid_of_picture(info.shape->layout);
-  const std::size_t first = first_picture(info.shape->layout, options);
   const std::size_t needed =
       info.shape->layout.kind == LayoutKind::layers ? info.shape->layout.cells.size() : 1;
   const auto halved = [](int side, int finest_side, int level) {
@@ -281,6 +286,22 @@ void find_orientation(const Declaration& declaration, const io::FileInfo& file, 
   }
 }
 
+/// Notes which picture and channels are selected; what there is to tell of them goes to `warnings`.
+void note_selection(const Selection& selection, MapFileInfo& info, std::vector<std::string>& warnings) {
+  const ChosenChannels& chosen = selection.channels;
+  const io::PartInfo& part = info.image.parts[chosen.picture];
+  info.picture = chosen.picture;
+  info.channels.clear();
+  for (const int channel : chosen.channels)
+    info.channels.push_back(part.channels[static_cast<std::size_t>(channel)]);
+  warnings = part.warnings;
+  warnings.insert(warnings.end(), chosen.warnings.begin(), chosen.warnings.end());
+}
+
+/// inspect, but for `warnings` of what is selected.
+MapFileInfo inspect_selected(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
+                             std::vector<std::string>& warnings);
+
 }  // namespace
 
 const io::Capabilities& capabilities_or_none(const fs::path& path) {
@@ -292,36 +313,40 @@ const io::Capabilities& capabilities_or_none(const fs::path& path) {
   }
 }
 
-std::vector<std::size_t> pictures_of(const io::FileInfo& file, int level) {
-  std::vector<std::size_t> pictures;
-  for (std::size_t i = 0; i < file.parts.size(); ++i) {
-    if (file.parts[i].level == level) pictures.push_back(i);
-  }
-  return pictures;
-}
-
-std::size_t first_picture(const Layout& layout, const ReadMapOptions& options) {
-  return options.part * (layout.kind == LayoutKind::layers ? layout.cells.size() : 1);
-}
-
 MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options) {
+  std::vector<std::string> warnings;
+  MapFileInfo info = inspect_selected(path, file, options, warnings);
+  info.image.warnings.insert(info.image.warnings.end(), warnings.begin(), warnings.end());
+  return info;
+}
+
+namespace {
+
+MapFileInfo inspect_selected(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
+                             std::vector<std::string>& warnings) {
   MapFileInfo info;
   info.image = file;
   info.notes = chain_notes_from(file.attributes);
-  const io::PartInfo& part = picture_for(file, options);
+  info.layers = all_layers(file);
+  Selection selection = select(path.string(), file, options, nullptr);
+  note_selection(selection, info, warnings);
+  const io::PartInfo& part = file.parts[info.picture];
   ChartSize picture;
   try {
     choose_eye(
-        {part.width, part.height}, options, [&] { return aspect_of_eye(path, file, options, part); }, info);
+        {part.width, part.height}, options, [&] { return aspect_of_eye(path, info, options); }, info);
     picture = eye_size(info.stereo, part.width, part.height);
   } catch (const Error& error) {
     throw in_file(path.string(), error);
   }
-  const Declaration declaration = declaration_for(path, file, options, picture, info.image.warnings);
+  const Declaration declaration = declaration_for(path, info, options, picture, info.image.warnings);
   info.reason = declaration.reason;
   try {
     find_orientation(declaration, file, options, info);
-    if (declaration.shape.empty()) return info;
+    if (declaration.shape.empty()) {
+      check_part(path, pictures_of(file, 0).size(), options.part);
+      return info;
+    }
     info.shape = shape_from(declaration, info.orientation);
   } catch (const Error& error) {
     // A damaged declaration names its file; a bad request names itself.
@@ -329,6 +354,10 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
     throw;
   }
   check_pictures(path, file, *info.shape, options.part);
+  if (info.shape->layout.kind == LayoutKind::layers) {
+    selection = select(path.string(), file, options, &info.shape->layout);
+    note_selection(selection, info, warnings);
+  }
   if (two_eyes(info.stereo) && info.shape->layout.kind != LayoutKind::picture) {
     throw Error(ErrorKind::bad_request, path.string(),
                 info.shape->text() + " is in several pictures, but two eyes' lie in one");
@@ -336,13 +365,13 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   tell_unused_panorama(picture, info);
   info.border = options.border;
   if (!options.shape && options.border == 0) info.border = positive_number(attribute(file, kBorderKey));
-  const ChartSize finest = finest_chart(path, file, options, info);
+  const ChartSize finest = finest_chart(path, options, info);
   try {
     check_turns(info.shape->layout, finest);
   } catch (const Error& error) {
     throw in_file(path.string(), error);
   }
-  info.levels = level_charts(file, options, info, finest);
+  info.levels = level_charts(info, selection.first, finest);
   const auto levels = static_cast<int>(info.levels.size());
   if (options.level < 0 || options.level >= levels) {
     throw Error(ErrorKind::bad_request, path.string(),
@@ -354,4 +383,5 @@ MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMa
   return info;
 }
 
+}  // namespace
 }  // namespace welkin::map_file

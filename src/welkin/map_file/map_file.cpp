@@ -1,7 +1,6 @@
 #include "welkin/map_file/map_file.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "welkin/base/error.h"
 #include "welkin/map/borders.h"
@@ -13,39 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace map_file;
-
-/// The channels to read: indices into the part's list. `declared` names those that the map had.
-std::vector<int> choose_channels(const std::string& name, const io::PartInfo& part,
-                                 const std::vector<std::string>& wanted, const std::string& declared = {}) {
-  const auto index_of = [&](const std::string& channel) {
-    const auto found = std::find(part.channels.begin(), part.channels.end(), channel);
-    return found == part.channels.end() ? -1 : static_cast<int>(found - part.channels.begin());
-  };
-  std::vector<int> chosen;
-  for (const std::string& channel : wanted) {
-    const int index = index_of(channel);
-    if (index < 0) throw Error(ErrorKind::bad_request, name, unknown_name("channel", channel, part.channels));
-    chosen.push_back(index);
-  }
-  if (!chosen.empty()) return chosen;
-  std::string channel;
-  for (std::istringstream names(declared); std::getline(names, channel, ',');) {
-    chosen.push_back(index_of(channel));
-  }
-  if (!chosen.empty() && std::count(chosen.begin(), chosen.end(), -1) == 0 && chosen.size() <= kMaxChannels)
-    return chosen;
-  chosen.clear();
-  if (index_of("R") >= 0 && index_of("G") >= 0 && index_of("B") >= 0) {
-    chosen = {index_of("R"), index_of("G"), index_of("B")};
-  } else if (index_of("Y") >= 0) {
-    chosen = {index_of("Y")};
-  } else {
-    for (int i = 0; i < std::min<int>(3, static_cast<int>(part.channels.size())); ++i) chosen.push_back(i);
-    return chosen;
-  }
-  if (index_of("A") >= 0) chosen.push_back(index_of("A"));
-  return chosen;
-}
 
 /// Opens the file, or the first of the files of a pattern.
 std::unique_ptr<io::Reader> open_first(const fs::path& path, const ReadMapOptions& options) {
@@ -107,7 +73,7 @@ LoadedMap read_map(std::span<const std::byte> bytes, const std::string& name, co
 
 const MapShape& MapReader::shape() const {
   if (info_.shape) return *info_.shape;
-  const io::PartInfo& part = info_.image.parts.at(std::min(options_.part, info_.image.parts.size() - 1));
+  const io::PartInfo& part = info_.image.parts[info_.picture];
   throw Error(ErrorKind::bad_request, path_.string(),
               "cannot tell which parameterization " + std::to_string(part.width) + "×" +
                   std::to_string(part.height) + " is");
@@ -120,16 +86,14 @@ Map MapReader::read() {
   const Layout& layout = shape().layout;
   const auto& p = shape().parameterization;
   const std::vector<std::size_t> pictures = pictures_of(info.image, options.level);
-  const std::size_t first = first_picture(layout, options);
+  const Selection selection = select(name, info.image, options, &layout);
+  const std::size_t first = selection.first;
   const io::PartInfo& part = info.image.parts[pictures[first]];
-  const std::vector<int> channels =
-      choose_channels(name, part, options.channels, attribute(info.image, kChannelsKey));
+  const std::vector<int>& channels = selection.channels.channels;
   const int count = static_cast<int>(channels.size());
   Map map(p, info.chart.width, info.chart.height, count);
   map.orientation = info.orientation;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    map.channel_names[i] = part.channels[static_cast<std::size_t>(channels[i])];
-  }
+  map.channel_names = selection.channels.names;
   const int border = info.border;
   const auto plain = [border](const LayoutCell& cell) {
     return !cell.mirrored && cell.quarter_turns == 0 && border == 0;
@@ -147,7 +111,7 @@ Map MapReader::read() {
                       ", but the first face is " + std::to_string(info.chart.width) + "×" +
                       std::to_string(info.chart.height));
     }
-    const std::vector<int> own = choose_channels(file, other, map.channel_names);
+    const std::vector<int> own = channels_like(selection.channels, part, file, from.info(), index);
     if (plain(cell)) return from.read(index, own, map.level.chart(cell.chart));
     Image picture(other.width, other.height, count);
     from.read(index, own, picture.view());
@@ -160,9 +124,9 @@ Map MapReader::read() {
         const fs::path file = chart_path(path_, names[i]);
         const auto reader = io::open(file, options.image);
         const std::vector<std::size_t> own = pictures_of(reader->info(), options.level);
-        if (options.part >= own.size())
+        if (first >= own.size())
           throw Error(ErrorKind::mismatch, file.string(), "has fewer pictures than the first face");
-        read_chart(*reader, own[options.part], layout.cells[i], file.string());
+        read_chart(*reader, own[first], layout.cells[i], file.string());
       }
       break;
     }

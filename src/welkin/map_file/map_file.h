@@ -28,8 +28,13 @@ struct ReadMapOptions {
   /// `NAME[:LAYOUT][,PARAMETER=VALUE]…`; without it, what the file declares, else a guess.
   std::optional<std::string> shape = {};
   std::string faces = {};  ///< see with_faces; empty for the layout's own order
-  /// Which channels become the map's: names of the file. Empty: R G B (A), or Y (A), or the first three.
+  /// Which channels become the map's: names of the file. Empty: R G B (A) by the ends of their names, in
+  /// whichever part and layer they are; or Y (A); or X Y Z; or the first three.
   std::vector<std::string> channels = {};
+  /// The layer to read: what stands before the last dot in its channels' names, or components of that; or the
+  /// name of a part, or of a view. Empty: plain names, or the layer whose name says that it is the finished
+  /// picture, or the first.
+  std::string layer = {};
   /// How the file's directions relate to the native world (convention.h), orthonormal; without it, what the
   /// file declares, else native.
   std::optional<Matrix3> orientation = {};
@@ -39,14 +44,26 @@ struct ReadMapOptions {
   /// suggests where an eye is asked for, else one picture.
   io::Stereo stereo = io::Stereo::not_said;
   int border = 0;  ///< texels of safety border around every chart in the file, besides what the file declares
-  std::size_t part = 0;  ///< of a file with several pictures; where these are the charts, of several sets
-  int level = 0;         ///< of a file with levels; 0 is the finest
+  /// Of a file with several pictures; where these are the charts, of several sets. None: the first that has
+  /// the channels to read.
+  std::optional<std::size_t> part = {};
+  int level = 0;               ///< of a file with levels; 0 is the finest
   io::ReadOptions image = {};  ///< transfer function, limit of memory
+};
+
+/// Channels of one picture that have the same name before the last dot: `diffuse.R`, `diffuse.G`…
+struct MapLayer {
+  std::size_t picture = 0;            ///< index into FileInfo::parts
+  std::string name;                   ///< `diffuse`; empty for channels without a dot
+  std::vector<std::string> channels;  ///< as the file calls them
 };
 
 /// What is known of a map's file before its pixels are read.
 struct MapFileInfo {
   io::FileInfo image;                    ///< of the first file where there are several
+  std::size_t picture = 0;               ///< of image.parts, the one to read at level 0, or the first of several
+  std::vector<std::string> channels;     ///< of that picture, those to read, as the file calls them
+  std::vector<MapLayer> layers;          ///< of all parts at level 0
   std::optional<MapShape> shape;         ///< none when nothing declares it and the size suggests nothing
   std::string reason;                    ///< why this shape: `declared by the file`, `guessed from 2:1`…
   ChartSize chart;                       ///< of the level that is read; meaningful when there is a shape
@@ -155,6 +172,13 @@ WELKIN_API io::WriteReport write_map(const std::filesystem::path& path, const Ma
 /// The same into a sink, in the format of that name: `exr`, `hdr`, `png`…
 WELKIN_API io::WriteReport write_map(io::ByteSink& sink, std::string_view format, const Map& map,
                                      const WriteMapOptions& options = {});
+
+/// Makes the map's channels those that a file of this name takes. Where the format has no alpha, A is
+/// dropped; the colours stay as they are in memory, multiplied by it. Where it has no other names, one
+/// channel becomes Y, three R G B, four R G B A. Returns what was done, in words. Throws Error (unsupported)
+/// about the file for channels that fit in no way.
+WELKIN_API std::vector<std::string> fit_channels(Map& map, const std::filesystem::path& path,
+                                                 const io::WriteOptions& options = {});
 
 /// Throws whatever writing `levels` levels of this shape and size would throw, before there is any map: of
 /// what the format, the layout, the faces, the border and the options allow, and of folders that don't take

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "welkin/base/number_text.h"
+#include "welkin/map_file/choose_channels.h"
 #include "welkin/map_file/layout.h"
 #include "welkin/map_file/map_file.h"
 
@@ -78,8 +79,21 @@ const io::Capabilities& capabilities_or_none(const std::filesystem::path& path);
 /// The pictures of a level: indices into the file's parts.
 std::vector<std::size_t> pictures_of(const io::FileInfo& file, int level);
 
-/// Where among the pictures of a level those of the map begin.
-std::size_t first_picture(const Layout& layout, const ReadMapOptions& options);
+/// Whether the file's pictures are the charts of a map: faces or layers of a texture.
+bool is_array(const io::FileInfo& file);
+
+/// What is read of a file.
+struct Selection {
+  std::size_t first = 0;    ///< where among the pictures of a level those of the map begin
+  ChosenChannels channels;  ///< of the first picture at level 0
+};
+
+/// Selects as `options` say, else what has colour. `layout` is null as long as it is unknown.
+Selection select(const std::string& file_name, const io::FileInfo& file, const ReadMapOptions& options,
+                 const Layout* layout);
+
+/// The layers of every picture at level 0.
+std::vector<MapLayer> all_layers(const io::FileInfo& file);
 
 /// What the file of `path`, of which `file` is known, holds.
 MapFileInfo inspect(const std::filesystem::path& path, const io::FileInfo& file,
