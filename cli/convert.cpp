@@ -14,6 +14,12 @@
 namespace welkin::cli {
 namespace {
 
+/// For levels that are means of a finer one.
+ResampleOptions of_means(ResampleOptions options) {
+  options.filter = Filter::automatic;
+  return options;
+}
+
 struct Convert {
   std::string in, out, to, size, filter = "auto", rotation, convention, fill;
   ReadFlags read;
@@ -24,6 +30,13 @@ struct Convert {
   void run() const;
   /// How many of the input's levels are converted.
   int levels_for(const MapFileInfo& info) const;
+  /// How many of them to write with charts of that size, and whether as means of level 0.
+  struct LevelsToWrite {
+    int count;
+    bool remade;
+  };
+  LevelsToWrite levels_to_write(const MapFileInfo& info, int levels, const MapShape& shape,
+                                ChartSize finest) const;
   /// Of level 0.
   ChartSize size_for(const Map& source, const MapShape& shape) const;
   Matrix3 orientation_of(const sphere::AnyParameterization& parameterization) const;
@@ -53,7 +66,7 @@ void Convert::run() const {
   MapReader reader = read.open(in);
   const MapFileInfo& info = reader.info();
   const int first = read.level.value_or(0);
-  const int levels = levels_for(info);
+  int levels = levels_for(info);
   shape = to.empty() ? shape_for_copy(info, out, levels) : parse_map_shape_for(out, to, levels);
   if (!read.level && levels < levels_of(info)) {
     print_message(fmt::format("welkin: {}: holds level 0 of the {} of {}; --level takes another\n", out,
@@ -65,8 +78,15 @@ void Convert::run() const {
   ChartSize finest;
   io::WriteReport report;
   std::uint64_t repaired = 0;
+  bool remade = false;
+  std::optional<Map> remade_from;
   options.monitor = progress_monitor("convert");
   for (int level = 0; level < levels; ++level) {
+    if (remade_from) {
+      chain.levels.push_back(
+          converted(*remade_from, shape->parameterization, chain_size(finest, level), of_means(options)));
+      continue;
+    }
     if (levels > 1) reader.set_level(level);
     Map source = reader.read();
     if (level == 0) {
@@ -75,10 +95,16 @@ void Convert::run() const {
         throw UsageError(fmt::format("--fill: {} values, but {} has {} channels", options.fill.size(), in,
                                      source.channels()));
       }
+      options.fill.resize(std::min(options.fill.size(), static_cast<std::size_t>(source.channels())));
       finest = size_for(source, *shape);
       check_output_size(finest, *shape, write);
+      const LevelsToWrite written = levels_to_write(info, levels, *shape, finest);
+      levels = written.count;
+      chain.notes.roughness.resize(std::min(chain.notes.roughness.size(), static_cast<std::size_t>(levels)));
       check_output_levels(out, *shape, finest, levels, write);
+      remade = written.remade;
     }
+    fit_channels_to(source, out, write_options, level > 0);
     if (sanitize) {
       repaired += welkin::sanitize(source);
     }
@@ -90,6 +116,7 @@ void Convert::run() const {
       break;
     }
     chain.levels.push_back(converted(source, shape->parameterization, chain_size(finest, level), options));
+    if (remade) remade_from = std::move(source);
   }
   end_progress();
   if (sanitize)
@@ -104,6 +131,31 @@ int Convert::levels_for(const MapFileInfo& info) const {
   const bool same_shape = to.empty() || for_chart_size(parse_map_shape(to), info.chart).parameterization ==
                                             info.shape->parameterization;
   return !info.notes.empty() || (same_shape && size.empty()) ? levels_of(info) : 1;
+}
+
+Convert::LevelsToWrite Convert::levels_to_write(const MapFileInfo& info, int levels, const MapShape& shape,
+                                                ChartSize finest) const {
+  const auto same = [](ChartSize a, ChartSize b) { return a.width == b.width && a.height == b.height; };
+  bool halved = true;
+  for (int level = 1; level < levels; ++level)
+    halved = halved && same(info.levels[static_cast<std::size_t>(level)], chain_size(info.levels[0], level));
+  if (halved || !size.empty()) return {levels, false};
+  // As many as the file takes, of levels whose sizes are rounded down.
+  int count = std::min(levels, max_levels(finest));
+  const bool remade = info.notes.empty();
+  const auto fit = [&] {
+    try {
+      check_chain(out, shape, finest, count, write.parse());
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  while (remade && count > 1 && !fit()) --count;
+  print_warning(in, fmt::format("the sizes of its levels are rounded up: {} {} of size rounded down, {}",
+                                count, count == 1 ? "level is written" : "levels are written",
+                                remade ? "means of level 0" : "each resampled from its own"));
+  return {count, remade};
 }
 
 ChartSize Convert::size_for(const Map& source, const MapShape& shape) const {
