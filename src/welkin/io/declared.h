@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 /// What a file says of its stored pixels beyond how they are coded. A format fills this in when it opens;
 /// interpret.h obeys it, in one place for all formats.
 namespace welkin::io {
+
+class GainMap;
 
 /// CIE 1931 x, y of three primaries and of white.
 struct Chromaticities {
@@ -41,6 +44,7 @@ struct Declared {
   std::optional<Chromaticities> primaries;  ///< of the linear values; none: BT.709, or unknown
   std::vector<std::byte> icc;               ///< an ICC profile, which then says all of colour
   std::string xmp;                          ///< an XMP packet
+  std::shared_ptr<GainMap> gain_map;        ///< to be applied to linear colours
 };
 
 }  // namespace welkin::io

@@ -109,6 +109,18 @@ bool IccProfile::has_primaries() const {
           self_->curve(1) != nullptr && self_->curve(2) != nullptr);
 }
 
+Matrix3 IccProfile::to_bt709() const {
+  // Curves lead from 0 to 0 and from 1 to 1, so the primaries at full show the columns.
+  Matrix3 matrix;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::array<float, 3> in{}, out{};
+    in[k] = 1;
+    self_->convert(in.data(), out.data(), 1);
+    for (std::size_t i = 0; i < 3; ++i) matrix.rows[i][k] = static_cast<double>(out[i]);
+  }
+  return matrix;
+}
+
 bool IccProfile::is_srgb() const {
   constexpr int kSteps = 16;
   double largest = 0;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "welkin/image/image.h"
+#include "welkin/math/rotation.h"
 
 namespace welkin::io {
 
@@ -35,6 +36,8 @@ class IccProfile {
   void to_linear(ImageView<float> pixels, int r, int g, int b, bool keep_primaries) const;
   /// Whether keep_primaries can be met.
   bool has_primaries() const;
+  /// Linear R G B of its own primaries, where it has them, to BT.709's.
+  Matrix3 to_bt709() const;
 
  private:
   struct Implementation;

@@ -8,8 +8,10 @@
 #include "welkin/image/texel_walk.h"
 #include "welkin/io/code_points.h"
 #include "welkin/io/colour_space.h"
+#include "welkin/io/gain_map.h"
 #include "welkin/io/icc_profile.h"
 #include "welkin/io/transfer.h"
+#include "welkin/io/xmp.h"
 
 namespace welkin::io {
 namespace {
@@ -71,7 +73,11 @@ class InterpretingReader : public Reader {
     std::vector<std::string> notes, warnings;
     choose_colour(options.colour == Colour::automatic, notes, warnings);
     choose_primaries(notes, warnings);
+    if (declared_.gain_map)
+      notes.push_back("made HDR by its gain map, of up to " + short_text(declared_.gain_map->stops()) +
+                      " stops");
     info_ = reader_->info();
+    read_xmp(warnings);
     info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
     info_.warnings.insert(info_.warnings.end(), warnings.begin(), warnings.end());
     const bool alpha = std::any_of(info_.parts.begin(), info_.parts.end(), [](const PartInfo& part) {
@@ -94,7 +100,7 @@ class InterpretingReader : public Reader {
 
   bool does_anything() const {
     return declared_.orientation != 1 || declared_.alpha != AlphaKind::associated || curve_ != Curve::none ||
-           matrix_ || profile_;
+           matrix_ || profile_ || declared_.gain_map;
   }
   /// The format's reader, with what was found out about it.
   std::unique_ptr<Reader> release() {
@@ -120,7 +126,8 @@ class InterpretingReader : public Reader {
     const TexelWalk walk = walk_of(declared_.orientation, stored.width, stored.height);
     if (walk.as_it_is() && needed.size() == channels.size()) {
       reader_->read(part, needed, out);
-      return convert(names, out);
+      convert(names, out);
+      return;
     }
     Image picture(stored.width, stored.height, static_cast<int>(needed.size()));
     reader_->read(part, needed, picture.view());
@@ -138,7 +145,9 @@ class InterpretingReader : public Reader {
   }
 
   /// Whether a colour depends on others.
-  bool mixes() const { return matrix_ || curve_ == Curve::hlg || (profile_ && profile_->channels() == 3); }
+  bool mixes() const {
+    return matrix_ || declared_.gain_map || curve_ == Curve::hlg || (profile_ && profile_->channels() == 3);
+  }
 
   void choose_colour(bool automatic, std::vector<std::string>& notes, std::vector<std::string>& warnings) {
     if (!declared_.icc.empty()) choose_profile(automatic, notes, warnings);
@@ -183,11 +192,23 @@ class InterpretingReader : public Reader {
                              " is a table of colours: converted to the primaries of BT.709 all the same");
         reader_->set_colour(Colour::linear);
         notes.push_back(name + ", made linear" + (keep_primaries_ ? "" : " in BT.709's primaries"));
+        // Gains are of the profile's own primaries.
+        curves_alone_ = keep_primaries_ || (declared_.gain_map && profile->has_primaries());
+        if (curves_alone_ && !keep_primaries_ && profile->channels() == 3) matrix_ = profile->to_bt709();
         profile_ = std::move(profile);
         declared_.primaries.reset();
       }
     } catch (const Error& error) {
       warnings.push_back("its ICC profile is ignored: " + error.cause());
+    }
+  }
+
+  void read_xmp(std::vector<std::string>& warnings) {
+    if (declared_.xmp.empty()) return;
+    try {
+      if (const auto panorama = panorama_from(Xmp(declared_.xmp), warnings)) info_.panorama = panorama;
+    } catch (const Error& error) {
+      warnings.push_back(error.cause() + "; what it says of a panorama is not known");
     }
   }
 
@@ -220,10 +241,17 @@ class InterpretingReader : public Reader {
     for (const ColourGroup& group : groups_of(names)) {
       const int y = group.y >= 0 && !group.whole() ? group.y : -1;
       if (profile_ && group.whole() && profile_->channels() == 3)
-        profile_->to_linear(pixels, group.r, group.g, group.b, keep_primaries_);
+        profile_->to_linear(pixels, group.r, group.g, group.b, curves_alone_);
       if (profile_ && y >= 0 && profile_->channels() == 1)
-        profile_->to_linear(pixels, y, y, y, keep_primaries_);
-      if (curve_ != Curve::none || matrix_) convert_colours(group, pixels);
+        profile_->to_linear(pixels, y, y, y, curves_alone_);
+      if (declared_.gain_map) {
+        if (curve_ != Curve::none) convert_colours(group, pixels, curve_, {});
+        if (group.whole()) declared_.gain_map->apply(pixels, group.r, group.g, group.b);
+        if (y >= 0) declared_.gain_map->apply(pixels, y, y, y);
+        if (matrix_) convert_colours(group, pixels, Curve::none, matrix_);
+      } else if (curve_ != Curve::none || matrix_) {
+        convert_colours(group, pixels, curve_, matrix_);
+      }
       if (declared_.alpha != AlphaKind::associated && group.a >= 0) multiply(group, pixels);
     }
   }
@@ -236,27 +264,28 @@ class InterpretingReader : public Reader {
     });
   }
 
-  void convert_colours(const ColourGroup& group, ImageView<float> pixels) const {
+  void convert_colours(const ColourGroup& group, ImageView<float> pixels, Curve curve,
+                       const std::optional<Matrix3>& matrix) const {
     const int colours[] = {group.r, group.g, group.b, group.y};
     each_pixel(pixels, [&](float* pixel) {
       double rgb[3] = {};
       for (int k = 0; k < 4; ++k) {
         const int c = colours[k];
         if (c < 0) continue;
-        if (curve_ != Curve::none)
-          pixel[c] = static_cast<float>(to_linear(curve_, gamma_, static_cast<double>(pixel[c])));
+        if (curve != Curve::none)
+          pixel[c] = static_cast<float>(to_linear(curve, gamma_, static_cast<double>(pixel[c])));
         if (k < 3) rgb[k] = static_cast<double>(pixel[c]);
       }
-      if (curve_ == Curve::hlg && group.y >= 0)
+      if (curve == Curve::hlg && group.y >= 0)
         pixel[group.y] = static_cast<float>(static_cast<double>(pixel[group.y]) *
                                             hlg_display_gain(static_cast<double>(pixel[group.y])));
       if (!group.whole()) return;
-      if (curve_ == Curve::hlg) {
+      if (curve == Curve::hlg) {
         const double gain = hlg_display_gain(kHlgLuminance[0] * rgb[0] + kHlgLuminance[1] * rgb[1] +
                                              kHlgLuminance[2] * rgb[2]);
         for (double& value : rgb) value *= gain;
       }
-      const Vec3d linear = matrix_ ? *matrix_ * Vec3d{rgb[0], rgb[1], rgb[2]} : Vec3d{rgb[0], rgb[1], rgb[2]};
+      const Vec3d linear = matrix ? *matrix * Vec3d{rgb[0], rgb[1], rgb[2]} : Vec3d{rgb[0], rgb[1], rgb[2]};
       pixel[group.r] = static_cast<float>(linear.x);
       pixel[group.g] = static_cast<float>(linear.y);
       pixel[group.b] = static_cast<float>(linear.z);
@@ -287,6 +316,7 @@ class InterpretingReader : public Reader {
   Curve curve_ = Curve::none;
   double gamma_ = 1;
   std::optional<Matrix3> matrix_;
+  bool curves_alone_ = false;  ///< of the profile: primaries stay, or wait for matrix_
   std::unique_ptr<IccProfile> profile_;
 };
 

@@ -8,7 +8,9 @@
 #include "welkin/base/error.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/exif.h"
+#include "welkin/io/gain_map.h"
 #include "welkin/io/jpeg/guard.h"
+#include "welkin/io/jpeg/pictures.h"
 #include "welkin/io/text_attributes.h"
 
 #include <jerror.h>
@@ -109,9 +111,12 @@ class Decoder {
   jpeg_decompress_struct codec_{};
 };
 
+/// Whether a picture is its file's first, or one behind it that may be its gain map.
+enum class Picture { first, further };
+
 class JpegReader : public FormatReader {
  public:
-  explicit JpegReader(const Source& source) : source_(source) {
+  explicit JpegReader(const Source& source, Picture picture = Picture::first) : source_(source) {
     Decoder decoder(source_);
     const jpeg_decompress_struct& codec = decoder.codec();
     std::vector<std::string> channels;
@@ -150,6 +155,7 @@ class JpegReader : public FormatReader {
       read_marker(*marker);
     }
     decoder.guarded([&] { read_profile(decoder.codec()); });
+    if (picture == Picture::first && has_further_) find_gain_map();
   }
 
   void decode(std::size_t part, std::span<const int> channels, ImageView<float> out) override {
@@ -188,11 +194,55 @@ class JpegReader : public FormatReader {
     constexpr std::string_view kExif("Exif\0\0", 6), kXmp("http://ns.adobe.com/xap/1.0/\0", 29);
     constexpr std::string_view kProfile("ICC_PROFILE\0", 12);
     has_profile_ = has_profile_ || (marker.marker == JPEG_APP0 + 2 && text.starts_with(kProfile));
+    constexpr std::string_view kIso("urn:iso:std:iso:ts:21496:-1\0", 28), kSeveral("MPF\0", 4);
+    if (marker.marker == JPEG_APP0 + 2 && text.starts_with(kIso)) iso_gain_map_ = text.substr(kIso.size());
+    has_further_ = has_further_ ||
+                   (marker.marker == JPEG_APP0 + 2 && (text.starts_with(kIso) || text.starts_with(kSeveral)));
     if (marker.marker != JPEG_APP0 + 1) return;
     if (text.starts_with(kExif))
       declared_.orientation =
           exif_orientation(std::as_bytes(std::span(text)).subspan(kExif.size())).value_or(1);
-    if (text.starts_with(kXmp)) declared_.xmp = text.substr(kXmp.size());
+    if (!text.starts_with(kXmp)) return;
+    declared_.xmp = text.substr(kXmp.size());
+    has_further_ = has_further_ || declared_.xmp.find(kHdrGainMapSpace) != std::string::npos;
+  }
+
+  /// What this picture says of itself as a gain map; ISO's words go before Adobe's.
+  std::optional<GainMapMetadata> gain_map() const {
+    if (const auto metadata = gain_map_metadata(std::as_bytes(std::span(iso_gain_map_)))) return metadata;
+    return declared_.xmp.empty() ? std::nullopt : gain_map_metadata(Xmp(declared_.xmp));
+  }
+
+  void find_gain_map() {
+    constexpr std::size_t kMostPictures = 16;
+    const auto pictures = jpegs_in(source_.bytes, kMostPictures);
+    try {
+      for (std::size_t i = 1; i < pictures.size(); ++i) {
+        ReadOptions options = source_.options;
+        options.colour = Colour::linear;
+        auto reader =
+            std::make_unique<JpegReader>(Source{pictures[i], source_.name, options}, Picture::further);
+        if (reader->declared_.xmp.find("http://ns.apple.com/HDRGainMap/") != std::string::npos)
+          info_.warnings.push_back(
+              "a gain map as Apple writes it is left out: only the picture without it is read");
+        const auto metadata = reader->gain_map();
+        if (!metadata) continue;
+        if (metadata->base_is_hdr) {
+          info_.notes.push_back("its gain map makes a picture of lower range, and is left out");
+        } else {
+          if (!metadata->base_colour_space)
+            info_.warnings.push_back(
+                "its gain map is of other primaries than its picture; it is applied all the same");
+          declared_.gain_map = std::make_shared<GainMap>(*metadata, std::move(reader));
+        }
+        return;
+      }
+    } catch (const Error& error) {
+      info_.warnings.push_back("its gain map is left out, so that it is not HDR: " + error.cause());
+      return;
+    }
+    if (!iso_gain_map_.empty() || declared_.xmp.find(kHdrGainMapSpace) != std::string::npos)
+      info_.warnings.push_back("it declares a gain map, but holds none: it is not HDR");
   }
 
   void read_profile(jpeg_decompress_struct& codec) {
@@ -209,6 +259,8 @@ class JpegReader : public FormatReader {
 
   Source source_;
   bool has_profile_ = false;
+  bool has_further_ = false;  ///< something says that pictures follow this one
+  std::string iso_gain_map_;  ///< ISO 21496-1's bytes
 };
 
 }  // namespace
