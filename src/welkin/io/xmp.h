@@ -30,6 +30,10 @@ class Xmp {
   std::unique_ptr<Document> document_;
 };
 
+/// What a JPEG's APP1 marker with a packet begins with, and the keyword of PNG's iTXt (ISO 16684-3).
+inline constexpr std::string_view kXmpMarker("http://ns.adobe.com/xap/1.0/\0", 29);
+inline constexpr const char* kXmpKeyword = "XML:com.adobe.xmp";
+
 inline constexpr std::string_view kHdrGainMapSpace = "http://ns.adobe.com/hdr-gain-map/1.0/";
 
 /// What the packet says of a panorama: GPano of Google's Photo Sphere XMP Metadata, and the stereo mode of

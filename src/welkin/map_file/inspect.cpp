@@ -161,9 +161,9 @@ MapShape shape_from(const Declaration& declaration, const Matrix3& orientation) 
 /// Throws when there is no part of that number among so many.
 void check_part(const fs::path& path, std::size_t parts, std::optional<std::size_t> asked) {
   if (asked.value_or(0) < parts) return;
-  throw Error(ErrorKind::bad_request, path.string(),
-              "has no part " + std::to_string(*asked) + " (parts are 0 to " + std::to_string(parts - 1) +
-                  ")");
+  throw Error(
+      ErrorKind::bad_request, path.string(),
+      "has no part " + std::to_string(*asked) + " (parts are 0 to " + std::to_string(parts - 1) + ")");
 }
 
 /// Throws when the layout asks for other files or for more pictures than there are.

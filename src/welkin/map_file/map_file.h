@@ -60,16 +60,16 @@ struct MapLayer {
 
 /// What is known of a map's file before its pixels are read.
 struct MapFileInfo {
-  io::FileInfo image;                    ///< of the first file where there are several
-  std::size_t picture = 0;               ///< of image.parts, the one to read at level 0, or the first of several
-  std::vector<std::string> channels;     ///< of that picture, those to read, as the file calls them
-  std::vector<MapLayer> layers;          ///< of all parts at level 0
-  std::optional<MapShape> shape;         ///< none when nothing declares it and the size suggests nothing
-  std::string reason;                    ///< why this shape: `declared by the file`, `guessed from 2:1`…
-  ChartSize chart;                       ///< of the level that is read; meaningful when there is a shape
-  std::vector<ChartSize> levels;         ///< charts of every level; one entry for a file without levels, none
-                                         ///< without a shape
-  ChainNotes notes;                      ///< what the file says of its levels
+  io::FileInfo image;                 ///< of the first file where there are several
+  std::size_t picture = 0;            ///< of image.parts, the one to read at level 0, or the first of several
+  std::vector<std::string> channels;  ///< of that picture, those to read, as the file calls them
+  std::vector<MapLayer> layers;       ///< of all parts at level 0
+  std::optional<MapShape> shape;      ///< none when nothing declares it and the size suggests nothing
+  std::string reason;                 ///< why this shape: `declared by the file`, `guessed from 2:1`…
+  ChartSize chart;                    ///< of the level that is read; meaningful when there is a shape
+  std::vector<ChartSize> levels;      ///< charts of every level; one entry for a file without levels, none
+                                      ///< without a shape
+  ChainNotes notes;                   ///< what the file says of its levels
   io::Stereo stereo = io::Stereo::mono;  ///< how two eyes' pictures lie in the file's, or that there is one
   Eye eye = Eye::left;                   ///< the one that is read, where there are two
   int border = 0;                        ///< safety border around every chart in the file, texels

@@ -191,7 +191,7 @@ class JpegReader : public FormatReader {
   void read_marker(const jpeg_marker_struct& marker) {
     const std::string_view text(reinterpret_cast<const char*>(marker.data), marker.data_length);
     if (marker.marker == JPEG_COM) parse_attribute_lines(text, "comment", info_.attributes);
-    constexpr std::string_view kExif("Exif\0\0", 6), kXmp("http://ns.adobe.com/xap/1.0/\0", 29);
+    constexpr std::string_view kExif("Exif\0\0", 6);
     constexpr std::string_view kProfile("ICC_PROFILE\0", 12);
     has_profile_ = has_profile_ || (marker.marker == JPEG_APP0 + 2 && text.starts_with(kProfile));
     constexpr std::string_view kIso("urn:iso:std:iso:ts:21496:-1\0", 28), kSeveral("MPF\0", 4);
@@ -202,8 +202,8 @@ class JpegReader : public FormatReader {
     if (text.starts_with(kExif))
       declared_.orientation =
           exif_orientation(std::as_bytes(std::span(text)).subspan(kExif.size())).value_or(1);
-    if (!text.starts_with(kXmp)) return;
-    declared_.xmp = text.substr(kXmp.size());
+    if (!text.starts_with(kXmpMarker)) return;
+    declared_.xmp = text.substr(kXmpMarker.size());
     has_further_ = has_further_ || declared_.xmp.find(kHdrGainMapSpace) != std::string::npos;
   }
 

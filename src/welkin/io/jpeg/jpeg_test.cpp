@@ -5,6 +5,7 @@
 #include <jpeglib.h>
 
 #include "welkin/io/exif.h"
+#include "welkin/io/jpeg/jpeg_test_files.h"
 #include "welkin/io/test_pictures.h"
 #include "welkin/io/transfer.h"
 
@@ -132,16 +133,6 @@ TEST(Jpeg, TooLargeIsRefusedClearly) {
 /// An Exif block of one entry, of tag 0x0112, in little-endian order.
 std::string exif_of(char orientation) {
   return std::string("II*\0\x8\0\0\0\1\0\x12\1\3\0\1\0\0\0", 18) + orientation + std::string(7, '\0');
-}
-
-/// The JPEG with a marker APP1 or APP2 after its start.
-Bytes with_marker(const Bytes& bytes, char marker, const std::string& body) {
-  const std::size_t size = body.size() + 2;
-  Bytes changed = bytes;
-  const Bytes inserted = bytes_of(std::string("\xff") + marker + static_cast<char>(size >> 8) +
-                                  static_cast<char>(size & 255) + body);
-  changed.insert(changed.begin() + 2, inserted.begin(), inserted.end());
-  return changed;
 }
 
 TEST(Jpeg, ExifOrientationIsApplied) {

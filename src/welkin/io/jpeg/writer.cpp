@@ -9,6 +9,7 @@
 #include "welkin/io/jpeg/jpeg.h"
 #include "welkin/io/text_attributes.h"
 #include "welkin/io/write_choices.h"
+#include "welkin/io/xmp.h"
 
 #include <jerror.h>
 
@@ -102,6 +103,8 @@ WriteReport write_jpeg(ByteSink& file, std::span<const WritePart> parts, const W
   const std::string comment = attribute_lines(options.attributes, "comment");
   if (comment.size() > kLongestComment)
     throw Error(ErrorKind::too_large, "the attributes are too long for a JPEG comment");
+  const std::string xmp =
+      options.panorama ? std::string(kXmpMarker) + xmp_of(*options.panorama) : std::string();
   const ImageView<const float> image = part.image;
   const PixelEncoder pixels(
       type, order, std::vector<bool>(order.size(), colour_for(type, options.colour) == Colour::srgb));
@@ -121,6 +124,10 @@ WriteReport write_jpeg(ByteSink& file, std::span<const WritePart> parts, const W
     }
     codec.optimize_coding = TRUE;
     jpeg_start_compress(&codec, TRUE);
+    if (!xmp.empty()) {
+      jpeg_write_marker(&codec, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(xmp.data()),
+                        static_cast<unsigned>(xmp.size()));
+    }
     if (!comment.empty()) {
       jpeg_write_marker(&codec, JPEG_COM, reinterpret_cast<const JOCTET*>(comment.data()),
                         static_cast<unsigned>(comment.size()));

@@ -11,6 +11,7 @@
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/exif.h"
 #include "welkin/io/png/guard.h"
+#include "welkin/io/xmp.h"
 
 namespace welkin::io {
 namespace {
@@ -280,7 +281,7 @@ class PngReader : public FormatReader {
               ? std::string_view()
               : std::string_view(texts[i].text, utf8 ? texts[i].itxt_length : texts[i].text_length);
       const std::string key = from_latin1(texts[i].key);
-      if (key == "XML:com.adobe.xmp") {
+      if (key == kXmpKeyword) {
         declared_.xmp = value;
         continue;
       }

@@ -10,6 +10,7 @@
 #include "welkin/io/png/guard.h"
 #include "welkin/io/png/png.h"
 #include "welkin/io/write_choices.h"
+#include "welkin/io/xmp.h"
 
 namespace welkin::io {
 namespace {
@@ -107,7 +108,16 @@ WriteReport write_png(ByteSink& file, std::span<const WritePart> parts, const Wr
   const int level = compression(options, known, "PNG") == "none" ? 0 : kZipLevel;
   const std::vector<int> order = channel_order(part, Alpha::allowed, "PNG");
   const Colour colour = colour_for(type, options.colour);
-  const std::vector<png_text> texts = texts_of(options.attributes);
+  std::vector<png_text> texts = texts_of(options.attributes);
+  std::string xmp = options.panorama ? xmp_of(*options.panorama) : std::string();
+  if (!xmp.empty()) {
+    png_text text{};
+    text.compression = PNG_ITXT_COMPRESSION_NONE;
+    text.key = const_cast<char*>(kXmpKeyword);
+    text.text = xmp.data();
+    text.itxt_length = xmp.size();
+    texts.push_back(text);
+  }
   const ImageView<const float> image = part.image;
 
   static const std::vector<std::string> names[] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};

@@ -9,6 +9,7 @@
 #include "welkin/io/tiff/file.h"
 #include "welkin/io/tiff/tiff.h"
 #include "welkin/io/write_choices.h"
+#include "welkin/io/xmp.h"
 
 namespace welkin::io {
 namespace {
@@ -119,6 +120,10 @@ class Writer {
       set(TIFFTAG_PAGENUMBER, static_cast<int>(page), static_cast<int>(pages));
     }
     set_description(page == 0, samples);
+    if (page == 0 && options_.panorama) {
+      const std::string xmp = xmp_of(*options_.panorama);
+      set(TIFFTAG_XMLPACKET, static_cast<std::uint32_t>(xmp.size()), xmp.data());
+    }
     const WriteReport report = write_pixels(part.image, samples);
     check(TIFFWriteDirectory(tiff_.get()) == 1);
     return report;
@@ -145,7 +150,7 @@ class Writer {
   }
 
   /// Colours in memory are multiplied by alpha, and linear. They are stored so where they stay linear; where
-  /// they are encoded, programs expect whole ones, and the caller has divided them.
+  /// they are encoded, programs expect whole ones.
   std::uint16_t alpha_tag() const {
     return colour_ == Colour::srgb ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_ASSOCALPHA;
   }
@@ -186,7 +191,12 @@ class Writer {
   }
 
   WriteReport write_pixels(ImageView<const float> image, const Samples& samples) {
-    const PixelEncoder pixels(type_, samples.order, srgb_channels(samples.names, colour_));
+    const auto alpha = std::find(samples.names.begin(), samples.names.end(), "A");
+    const bool straight = alpha != samples.names.end() && alpha_tag() == EXTRASAMPLE_UNASSALPHA;
+    const PixelEncoder pixels(
+        type_, samples.order, srgb_channels(samples.names, colour_),
+        straight ? std::optional(samples.order[static_cast<std::size_t>(alpha - samples.names.begin())])
+                 : std::nullopt);
     const std::size_t stride = static_cast<std::size_t>(image.width) * pixels.pixel_bytes();
     constexpr std::size_t kStripBytes = std::size_t{1} << 18;
     const int rows_of_strip = static_cast<int>(

@@ -14,6 +14,7 @@
 #include "welkin/io/exif.h"
 #include "welkin/io/format.h"
 #include "welkin/io/write_choices.h"
+#include "welkin/io/xmp.h"
 
 namespace welkin::io {
 namespace {
@@ -168,6 +169,20 @@ class Picture {
   WebPPicture picture_;
 };
 
+/// Writes an encoded picture again, in the container that holds metadata beside it.
+void write_with_xmp(ByteSink& file, std::span<const std::byte> picture, const std::string& xmp) {
+  const std::unique_ptr<WebPMux, decltype(&WebPMuxDelete)> mux(WebPMuxNew(), WebPMuxDelete);
+  const WebPData pixels{reinterpret_cast<const std::uint8_t*>(picture.data()), picture.size()};
+  const WebPData packet{reinterpret_cast<const std::uint8_t*>(xmp.data()), xmp.size()};
+  WebPData whole{};
+  const bool assembled = mux != nullptr && WebPMuxSetImage(mux.get(), &pixels, 0) == WEBP_MUX_OK &&
+                         WebPMuxSetChunk(mux.get(), "XMP ", &packet, 0) == WEBP_MUX_OK &&
+                         WebPMuxAssemble(mux.get(), &whole) == WEBP_MUX_OK;
+  const std::unique_ptr<void, decltype(&WebPFree)> owner(const_cast<std::uint8_t*>(whole.bytes), WebPFree);
+  if (!assembled) throw std::bad_alloc();
+  file.write(whole.bytes, whole.size);
+}
+
 /// Lossless at quality 100 or if `compression` says so, else lossy. Grey is stored as three equal channels.
 WriteReport write_webp(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   static const std::string known[] = {"", "lossless", "lossy"};
@@ -203,8 +218,16 @@ WriteReport write_webp(ByteSink& file, std::span<const WritePart> parts, const W
   } else {
     config.quality = static_cast<float>(quality);
   }
-  Sink sink{file, nullptr};
-  Picture(stored, image.width, image.height, alpha, lossless).encode(config, sink);
+  Picture picture(stored, image.width, image.height, alpha, lossless);
+  if (options.panorama) {
+    MemorySink pixels_alone;
+    Sink sink{pixels_alone, nullptr};
+    picture.encode(config, sink);
+    write_with_xmp(file, pixels_alone.bytes(), xmp_of(*options.panorama));
+  } else {
+    Sink sink{file, nullptr};
+    picture.encode(config, sink);
+  }
   return report;
 }
 

@@ -1,0 +1,104 @@
+#include "welkin/io/xmp.h"
+
+#include "welkin/io/test_pictures.h"
+
+namespace welkin::io::test {
+namespace {
+
+/// A packet with these attributes on its description, and these elements in it.
+std::string packet(const std::string& attributes, const std::string& elements = "") {
+  return "<?xpacket begin=''?><x:xmpmeta xmlns:x='adobe:ns:meta/'><rdf:RDF "
+         "xmlns:rdf='http://www.w3.org/1999/02/22-rdf-syntax-ns#'><rdf:Description rdf:about='' " +
+         attributes + ">" + elements + "</rdf:Description></rdf:RDF></x:xmpmeta><?xpacket end='w'?>";
+}
+
+const std::string kSpace = "http://ns.google.com/photos/1.0/panorama/";
+
+TEST(Xmp, AttributesAndElementsOfAnyPrefixAreFound) {
+  const Xmp xmp(packet("xmlns:g='" + kSpace + "' g:PoseHeadingDegrees=' 350.5 '",
+                       "<other:ProjectionType xmlns:other='" + kSpace +
+                           "'>equirectangular</other:ProjectionType>"
+                           "<g:List><rdf:Seq><rdf:li>1</rdf:li><rdf:li>2</rdf:li></rdf:Seq></g:List>"));
+  EXPECT_EQ(xmp.number(kSpace, "PoseHeadingDegrees"), 350.5);
+  EXPECT_EQ(xmp.text(kSpace, "ProjectionType"), "equirectangular");
+  EXPECT_EQ(xmp.texts(kSpace, "List"), (std::vector<std::string>{"1", "2"}));
+  EXPECT_EQ(xmp.text("http://ns.google.com/photos/1.0/image/", "ProjectionType"), std::nullopt);
+  EXPECT_EQ(xmp.text(kSpace, "Nothing"), std::nullopt);
+}
+
+TEST(Xmp, PanoramasGoBothWays) {
+  Panorama panorama{"equirectangular", 8192, 4096, 4096, 1024};
+  panorama.crop_left = 2048;
+  panorama.crop_top = 512;
+  panorama.heading = 271.25;
+  panorama.pitch = -3;
+  panorama.roll = 0.5;
+  std::vector<std::string> warnings;
+  EXPECT_EQ(panorama_from(Xmp(xmp_of(panorama)), warnings), panorama);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(Xmp, NumbersThatCannotBeMeantAreTold) {
+  std::vector<std::string> warnings;
+  const auto panorama =
+      panorama_from(Xmp(packet("xmlns:GPano='" + kSpace +
+                               "' GPano:ProjectionType='equirectangular' GPano:FullPanoWidthPixels='many' "
+                               "GPano:FullPanoHeightPixels='-4' GPano:CroppedAreaLeftPixels='1e300' "
+                               "GPano:PosePitchDegrees='nan'")),
+                    warnings);
+  ASSERT_TRUE(panorama);
+  EXPECT_EQ(panorama->full_width, 0);
+  EXPECT_EQ(panorama->pitch, 0);
+  EXPECT_EQ(warnings.size(), 4u);
+}
+
+TEST(Xmp, PacketsWithoutAPanoramaSayNothing) {
+  std::vector<std::string> warnings;
+  EXPECT_EQ(panorama_from(Xmp(packet("")), warnings), std::nullopt);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(Xmp, StereoAndTheOtherEyeAreTold) {
+  std::vector<std::string> warnings;
+  const auto panorama = panorama_from(
+      Xmp(packet("xmlns:s='http://ns.google.com/videos/1.0/spherical/' s:StereoMode='top-bottom' "
+                 "xmlns:GImage='http://ns.google.com/photos/1.0/image/' GImage:Mime='image/jpeg'")),
+      warnings);
+  ASSERT_TRUE(panorama);
+  EXPECT_EQ(panorama->stereo, Stereo::top_bottom);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
+TEST(Xmp, DamageIsAnErrorAndDepthIsSurvived) {
+  const std::string whole = packet("xmlns:GPano='" + kSpace + "' GPano:ProjectionType='equirectangular'");
+  for (std::size_t size = 30; size < whole.find("</x:xmpmeta>"); size += 7)
+    EXPECT_THROW(Xmp(whole.substr(0, size)), Error) << size;
+  std::string deep;
+  for (int i = 0; i < 200000; ++i) deep += "<a>";
+  for (int i = 0; i < 200000; ++i) deep += "</a>";
+  const Xmp xmp(packet("", deep));
+  EXPECT_EQ(xmp.text(kSpace, "ProjectionType"), std::nullopt);
+}
+
+TEST(Xmp, EveryFormatThatCarriesItDoes) {
+  Panorama panorama{"equirectangular", 64, 32, 16, 8};
+  panorama.crop_left = 24;
+  panorama.crop_top = 12;
+  WriteOptions options;
+  options.panorama = panorama;
+  options.attributes = {{"Title", "part"}};
+  for (const std::string extension : {"jpg", "png", "tif", "webp"}) {
+    if (extension == "webp") options.attributes.clear();
+    const Bytes bytes = encoded(extension, noise(16, 8, 3), options);
+    const FileInfo info = info_of(bytes);
+    EXPECT_EQ(info.panorama, panorama) << extension;
+    EXPECT_EQ(info.attributes, options.attributes) << extension;
+    EXPECT_TRUE(info.warnings.empty()) << extension;
+    options.panorama.reset();
+    expect_same(decoded(bytes), decoded(encoded(extension, noise(16, 8, 3), options)));
+    options.panorama = panorama;
+  }
+}
+
+}  // namespace
+}  // namespace welkin::io::test
