@@ -6,6 +6,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/image/texel_walk.h"
+#include "welkin/io/channel_names.h"
 #include "welkin/io/code_points.h"
 #include "welkin/io/colour_space.h"
 #include "welkin/io/gain_map.h"
@@ -41,7 +42,7 @@ TexelWalk walk_of(int orientation, int width, int height) {
 
 /// Channels of a picture that are one colour: `R G B` or `Y`, with `A`; of a layer `diffuse.R`….
 struct ColourGroup {
-  std::string layer;  ///< with its dot
+  std::string_view layer;
   int r = -1, g = -1, b = -1, y = -1, a = -1;
 
   bool whole() const { return r >= 0 && g >= 0 && b >= 0; }
@@ -50,18 +51,20 @@ struct ColourGroup {
 std::vector<ColourGroup> groups_of(std::span<const std::string> channels) {
   std::vector<ColourGroup> groups;
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    const std::size_t dot = channels[i].rfind('.');
-    const std::size_t split = dot == std::string::npos ? 0 : dot + 1;
-    const std::string layer = channels[i].substr(0, split), name = channels[i].substr(split);
+    const std::string_view layer = layer_of_channel(channels[i]), name = meaning_of_channel(channels[i]);
     auto group =
         std::find_if(groups.begin(), groups.end(), [&](const auto& each) { return each.layer == layer; });
     if (group == groups.end()) group = groups.insert(groups.end(), {layer});
-    const int index = static_cast<int>(i);
-    if (name == "R") group->r = index;
-    if (name == "G") group->g = index;
-    if (name == "B") group->b = index;
-    if (name == "Y") group->y = index;
-    if (name == "A") group->a = index;
+    const std::pair<std::string_view, int ColourGroup::*> places[] = {{"R", &ColourGroup::r},
+                                                                      {"G", &ColourGroup::g},
+                                                                      {"B", &ColourGroup::b},
+                                                                      {"Y", &ColourGroup::y},
+                                                                      {"A", &ColourGroup::a}};
+    for (const auto& [meaning, place] : places) {
+      // `R` rather than `r` or `red`, where there are both.
+      if (meaning == name && ((*group).*place < 0 || channels[i].ends_with(meaning)))
+        (*group).*place = static_cast<int>(i);
+    }
   }
   return groups;
 }

@@ -112,6 +112,12 @@ TEST(ExrColour, PartsThatDifferAreTold) {
   for (TestPart& part : parts) Imf::addChromaticities(part.header, kP3);
   EXPECT_TRUE(opened(parts).declared.primaries) << "all say the same";
   EXPECT_TRUE(opened(parts).warnings.empty());
+  for (TestPart& part : parts) part.header.erase("chromaticities");
+  parts[1].header.insert("colorInteropID", Imf::StringAttribute("lin_ap1_scene"));
+  const Opened differ = opened(parts);
+  EXPECT_FALSE(differ.declared.primaries);
+  ASSERT_EQ(differ.warnings.size(), 1u);
+  EXPECT_NE(differ.warnings[0].find("not that of the file's other parts"), std::string::npos);
 }
 
 /// Y RY BY A of a colour that varies, at the full resolution or half of it.
@@ -167,7 +173,9 @@ TEST(ExrColour, FullChromaBecomesRgb) {
         if (p3) Imf::addChromaticities(like, kP3);
         const std::string path = folder / "yc.exr";
         write_chroma(path, like, tiled, Imf::RgbaYca::computeYw(p3 ? kP3 : Imf::Chromaticities()), colour);
-        const auto reader = open(std::filesystem::path(path));
+        ReadOptions as_stored;
+        as_stored.keep_primaries = true;
+        const auto reader = open(std::filesystem::path(path), as_stored);
         EXPECT_EQ(reader->info().parts[0].channels, (std::vector<std::string>{"R", "G", "B", "A"}));
         const Image image = read_all(*reader);
         for (int y = 0; y < image.height(); ++y) {
@@ -186,6 +194,31 @@ TEST(ExrColour, FullChromaBecomesRgb) {
         EXPECT_EQ(two.at(5, 5)[1], image.at(5, 5)[0]);
       }
     }
+  }
+}
+
+TEST(ExrColour, LayersAreConvertedToBt709) {
+  const Folder folder;
+  for (const auto& names : {std::vector<std::string>{"V.R", "V.G", "V.B"}, {"r", "g", "b"}}) {
+    TestPart part = small_part(
+        {{names[0], Imf::FLOAT}, {names[1], Imf::FLOAT}, {names[2], Imf::FLOAT}, {"Z", Imf::FLOAT}});
+    Imf::addChromaticities(part.header, kP3);
+    write_file(folder / "p3.exr", {part});
+    ReadOptions keep;
+    keep.keep_primaries = true;
+    const auto reader = open(std::filesystem::path(folder / "p3.exr"));
+    const auto stored = open(std::filesystem::path(folder / "p3.exr"), keep);
+    const auto at = [&](Reader& from, const std::string& name) {
+      const std::vector<std::string>& all = from.info().parts[0].channels;
+      const auto index = std::find(all.begin(), all.end(), name) - all.begin();
+      return static_cast<double>(read_all(from).at(3, 2)[index]);
+    };
+    const double r = at(*stored, names[0]), g = at(*stored, names[1]), b = at(*stored, names[2]);
+    // Rows of the matrix from P3 to BT.709, both of white D65.
+    EXPECT_NEAR(at(*reader, names[0]), 1.2249 * r - 0.2247 * g, 1e-3);
+    EXPECT_NEAR(at(*reader, names[1]), -0.0421 * r + 1.0419 * g, 1e-3);
+    EXPECT_NEAR(at(*reader, names[2]), -0.0196 * r - 0.0786 * g + 1.0983 * b, 1e-3);
+    EXPECT_EQ(at(*reader, "Z"), at(*stored, "Z"));
   }
 }
 

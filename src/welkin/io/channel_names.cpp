@@ -1,0 +1,41 @@
+#include "welkin/io/channel_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace welkin::io {
+
+std::string_view meaning_of_channel(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kMeanings{{{"r", "R"},
+                                                                                     {"red", "R"},
+                                                                                     {"g", "G"},
+                                                                                     {"green", "G"},
+                                                                                     {"b", "B"},
+                                                                                     {"blue", "B"},
+                                                                                     {"a", "A"},
+                                                                                     {"alpha", "A"},
+                                                                                     {"y", "Y"},
+                                                                                     {"l", "Y"},
+                                                                                     {"luminance", "Y"},
+                                                                                     {"x", "X"},
+                                                                                     {"z", "Z"},
+                                                                                     {"zback", "Z"},
+                                                                                     {"depth", "Z"}}};
+  name.remove_prefix(name.rfind('.') + 1);  // nothing without a dot: npos + 1 is 0
+  const auto same = [](char small, char any) {
+    return small == std::tolower(static_cast<unsigned char>(any));
+  };
+  for (const auto& [known, meaning] : kMeanings) {
+    if (std::equal(known.begin(), known.end(), name.begin(), name.end(), same)) return meaning;
+  }
+  return {};
+}
+
+std::string_view layer_of_channel(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? std::string_view() : name.substr(0, dot);
+}
+
+}  // namespace welkin::io
