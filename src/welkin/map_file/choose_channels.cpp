@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "welkin/base/error.h"
+#include "welkin/io/channel_names.h"
 #include "welkin/map_file/map_file_job.h"
 
 namespace welkin::map_file {
@@ -23,8 +24,7 @@ std::string lower(std::string_view text) {
 }
 
 std::string layer_of(const std::string& channel) {
-  const std::size_t dot = channel.rfind('.');
-  return dot == std::string::npos ? "" : channel.substr(0, dot);
+  return std::string(io::layer_of_channel(channel));
 }
 
 std::string last_component(const std::string& name) {
@@ -37,27 +37,8 @@ std::string listed(const std::vector<std::string>& names, const char* between = 
   return text;
 }
 
-/// What a channel holds by the end of its name: R, G, B, A, Y, X, Z; empty for anything else.
 std::string meaning_of(const std::string& channel) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 15> kMeanings{{{"r", "R"},
-                                                                                {"red", "R"},
-                                                                                {"g", "G"},
-                                                                                {"green", "G"},
-                                                                                {"b", "B"},
-                                                                                {"blue", "B"},
-                                                                                {"a", "A"},
-                                                                                {"alpha", "A"},
-                                                                                {"y", "Y"},
-                                                                                {"l", "Y"},
-                                                                                {"luminance", "Y"},
-                                                                                {"x", "X"},
-                                                                                {"z", "Z"},
-                                                                                {"zback", "Z"},
-                                                                                {"depth", "Z"}}};
-  const std::string suffix = lower(last_component(channel));
-  const auto found = std::find_if(kMeanings.begin(), kMeanings.end(),
-                                  [&](const auto& each) { return each.first == suffix; });
-  return found == kMeanings.end() ? "" : found->second;
+  return std::string(io::meaning_of_channel(channel));
 }
 
 /// Fills kind, channels and names from the layer's members.

@@ -129,8 +129,7 @@ Declaration declaration_for(const fs::path& path, const MapFileInfo& info, const
   if (part.envmap) {
     const std::string name = declared_by_envmap(*part.envmap);
     const std::string_view layout = sphere::AnyParameterization::make(name).traits().layout;
-    return {name + (layout.empty() ? "" : ":" + std::string(layout)), options.faces,
-            "declared by the envmap attribute"};
+    return {name + (layout.empty() ? "" : ":" + std::string(layout)), options.faces, kByEnvmap};
   }
   if (const auto guessed = guess(file, picture, pattern))
     return {guessed->first, options.faces, guessed->second};
@@ -213,6 +212,7 @@ ChartSize finest_chart(const fs::path& path, const ReadMapOptions& options, MapF
   std::snprintf(aspect, sizeof aspect, "%.4g", info.shape->parameterization.aspect() * columns / rows);
   const std::string expected = std::string("whose width is ") + aspect + " times its height";
   if (info.reason == kByPanorama) return {width, height};  // shape_of has warned
+  if (info.reason == kByEnvmap && info.shape->parameterization.charts() == 1) return {width, height};
   if (options.shape && info.shape->parameterization.charts() == 1) {
     // What was asked is believed.
     const io::Stereo stereo =
@@ -298,10 +298,6 @@ void note_selection(const Selection& selection, MapFileInfo& info, std::vector<s
   warnings.insert(warnings.end(), chosen.warnings.begin(), chosen.warnings.end());
 }
 
-/// inspect, but for `warnings` of what is selected.
-MapFileInfo inspect_selected(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
-                             std::vector<std::string>& warnings);
-
 }  // namespace
 
 const io::Capabilities& capabilities_or_none(const fs::path& path) {
@@ -313,15 +309,9 @@ const io::Capabilities& capabilities_or_none(const fs::path& path) {
   }
 }
 
-MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options) {
-  std::vector<std::string> warnings;
-  MapFileInfo info = inspect_selected(path, file, options, warnings);
-  info.image.warnings.insert(info.image.warnings.end(), warnings.begin(), warnings.end());
-  return info;
-}
-
 namespace {
 
+/// inspect, but for `warnings` of what is selected.
 MapFileInfo inspect_selected(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options,
                              std::vector<std::string>& warnings) {
   MapFileInfo info;
@@ -384,4 +374,12 @@ MapFileInfo inspect_selected(const fs::path& path, const io::FileInfo& file, con
 }
 
 }  // namespace
+
+MapFileInfo inspect(const fs::path& path, const io::FileInfo& file, const ReadMapOptions& options) {
+  std::vector<std::string> warnings;
+  MapFileInfo info = inspect_selected(path, file, options, warnings);
+  info.image.warnings.insert(info.image.warnings.end(), warnings.begin(), warnings.end());
+  return info;
+}
+
 }  // namespace welkin::map_file

@@ -22,6 +22,9 @@ inline constexpr const char* kOrientationKey = "welkin.orientation";
 inline constexpr const char* kBorderKey = "welkin.border";
 inline constexpr const char* kChannelsKey = "welkin.channels";  // where the format may add others
 
+/// MapFileInfo::reason of a shape that PartInfo::envmap declares.
+inline constexpr const char* kByEnvmap = "declared by the envmap attribute";
+
 /// MapFileInfo::reason of a shape that FileInfo::panorama declares.
 inline constexpr const char* kByPanorama = "declared by the file's panorama metadata";
 
