@@ -60,7 +60,7 @@ red=3400 green=3800 blue=3c00 alpha=3a00 two=4000 four=4400 eight=4800 seven=470
 
 exr blender.exr V.Combined.A=$alpha V.Combined.B=$blue V.Combined.G=$green V.Combined.R=$red V.Depth.Z=$seven
 shows "0.25 0.5 1 0.75" blender.exr
-must convert blender.exr blender.png --to-colour linear --type uint16
+must convert blender.exr blender.png --exposure -1
 must convert blender.exr blender.exr.exr
 matches '^  picture +8×4, R G B A of float' info blender.exr.exr --header
 matches '^  layer +V.Combined: A B G R$' info blender.exr --header
