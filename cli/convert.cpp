@@ -39,10 +39,11 @@ struct Convert {
                                 ChartSize finest) const;
   /// Of level 0.
   ChartSize size_for(const Map& source, const MapShape& shape) const;
-  Matrix3 orientation_of(const sphere::AnyParameterization& parameterization) const;
+  /// Whether the output shows the part of the world that the input shows, and so is turned as that is.
+  bool keeps_orientation(const MapFileInfo& info) const;
+  Matrix3 orientation_of(const sphere::AnyParameterization& parameterization, const MapFileInfo& info) const;
   float factor() const { return static_cast<float>(scale * std::exp2(exposure)); }
-  Map converted(const Map& source, const sphere::AnyParameterization& parameterization, ChartSize chart,
-                const ResampleOptions& options) const;
+  Map converted(const Map& source, const MapFrame& frame, const ResampleOptions& options) const;
 };
 
 void Convert::run() const {
@@ -73,6 +74,13 @@ void Convert::run() const {
                               levels_of(info), in));
   }
 
+  const Matrix3 orientation = orientation_of(shape->parameterization, info);
+  if (keeps_orientation(info) && !io::capabilities_for(out).attributes) {
+    print_message(
+        fmt::format("welkin: {}: is turned as the input is, which the file cannot say; --to latlong makes a "
+                    "map that isn't\n",
+                    out));
+  }
   Chain chain;
   chain.notes = levels == 1 ? info.notes.of_level(first) : info.notes;
   ChartSize finest;
@@ -110,12 +118,12 @@ void Convert::run() const {
     }
     if (levels == 1) {
       // Made when it is written.
-      report = write_resampled(
-          out, source, *shape, finest,
-          {options, orientation_of(shape->parameterization), factor(), chain.notes, write_options});
+      report = write_resampled(out, source, *shape, finest,
+                               {options, orientation, factor(), chain.notes, write_options});
       break;
     }
-    chain.levels.push_back(converted(source, shape->parameterization, chain_size(finest, level), options));
+    chain.levels.push_back(
+        converted(source, {shape->parameterization, chain_size(finest, level), orientation}, options));
     if (remade) remade_from = std::move(source);
   }
   end_progress();
@@ -166,15 +174,21 @@ ChartSize Convert::size_for(const Map& source, const MapShape& shape) const {
   return default_chart_size(source, shape.parameterization);
 }
 
-Matrix3 Convert::orientation_of(const sphere::AnyParameterization& parameterization) const {
+bool Convert::keeps_orientation(const MapFileInfo& info) const {
+  return to.empty() && convention.empty() && read.convention.empty() && rotation.empty() &&
+         !info.shape->parameterization.whole_world() && !(info.orientation == Matrix3{});
+}
+
+Matrix3 Convert::orientation_of(const sphere::AnyParameterization& parameterization,
+                                const MapFileInfo& info) const {
+  if (keeps_orientation(info)) return info.orientation;
   return convention.empty() ? Matrix3{} : orientation_for(convention_from_name(convention), parameterization);
 }
 
-Map Convert::converted(const Map& source, const sphere::AnyParameterization& parameterization,
-                       ChartSize chart, const ResampleOptions& options) const {
-  Map target(parameterization, chart.width, chart.height, source.channels());
+Map Convert::converted(const Map& source, const MapFrame& frame, const ResampleOptions& options) const {
+  Map target(frame.parameterization, frame.size.width, frame.size.height, source.channels());
   target.channel_names = source.channel_names;
-  target.orientation = orientation_of(parameterization);
+  target.orientation = frame.orientation;
   resample(source, target, options);
   if (factor() != 1) welkin::scale(target, factor());
   return target;

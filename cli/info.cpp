@@ -48,6 +48,16 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+/// `top-bottom`, `left-right`; empty where there is one picture.
+std::string stereo_of(const MapFileInfo& info) {
+  if (info.stereo == io::Stereo::top_bottom) return "top-bottom";
+  return info.stereo == io::Stereo::left_right ? "left-right" : "";
+}
+
+std::string eye_of(const MapFileInfo& info) {
+  return info.eye == Eye::left ? "left" : "right";
+}
+
 ordered_json header_of(const std::string& path, const MapFileInfo& info) {
   ordered_json parts = ordered_json::array();
   for (std::size_t i = 0; i < info.image.parts.size(); ++i) {
@@ -81,6 +91,10 @@ ordered_json header_of(const std::string& path, const MapFileInfo& info) {
   report["parameterization"] = info.shape ? ordered_json(info.shape->text()) : ordered_json(nullptr);
   report["reason"] = info.reason;
   if (info.shape) report["chart"] = {{"width", info.chart.width}, {"height", info.chart.height}};
+  if (const std::string stereo = stereo_of(info); !stereo.empty()) {
+    report["stereo"] = stereo;
+    report["eye"] = eye_of(info);
+  }
   if (info.border > 0) {
     report["border"] = {{"texels", info.border}, {"coarsest_level_served", level_served(info)}};
   }
@@ -197,6 +211,8 @@ void print_header(const std::string& path, const MapFileInfo& info) {
   if (info.shape) {
     fmt::print("  parameterization  {} ({}), charts {}×{}×{}\n", info.shape->text(), info.reason,
                info.shape->parameterization.charts(), info.chart.width, info.chart.height);
+    if (const std::string stereo = stereo_of(info); !stereo.empty())
+      fmt::print("  eye               {}, of two ({})\n", eye_of(info), stereo);
     if (info.border > 0) {
       fmt::print("  safety border     {} texels: serves mip levels 0 to {}\n", info.border,
                  level_served(info));

@@ -4,6 +4,15 @@
 # panoramas_test.sh WELKIN
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
+# warns PATTERN ARGUMENT…: welkin does this, with one warning that matches.
+warns() {
+  checks=$((checks + 1))
+  run "${@:2}"
+  if ((status != 0)) || [[ $(wc -l <"$work/messages") != 1 ]] || ! grep -qE -- "^welkin: .*$1" "$work/messages"; then
+    fail "welkin ${*:2}: status $status, the warning doesn't match '$1': $(head -n 3 -- "$work/messages")"
+  fi
+}
+
 must synth axes card.exr --size 512
 
 # A window shows what the whole shows there, and nothing else; it is kept by the file, and drawn as it is converted.
@@ -26,19 +35,20 @@ refuses 2 'top must be at least' convert card.exr x.exr --to latlong,top=0,botto
 refuses 2 "did you mean 'bottom'" convert card.exr x.exr --to latlong,botom=10
 refuses 2 'is not a number in -90…90' info crop.exr --from latlong,top=100
 
+# A part of the world stays that part where nothing else is asked for, also where it is turned.
+must convert card.exr turned.exr --to latlong,left=-45,right=45 --size 64 --convention blender
+must convert turned.exr copy.exr
+matches '"orientation"' info copy.exr --header --json
+must diff turned.exr copy.exr --fail-above 1e-5
+near "the copy along its middle" "$(sample_along copy.exr 1,0,0)" "$(sample_along card.exr 1,0,0)" 0.02
+warns 'is turned as the input is, which the file cannot say' convert turned.exr copy.pfm
+
 # VR180 is the middle half of a lat-long.
 must convert card.exr vr180.exr --to vr180 --size 256
 must convert card.exr middle.exr --to latlong,left=-90,right=90 --size 256
 must diff vr180.exr middle.exr --fail-above 1e-5
 
 # What was written is read with any aspect, and told where the file doesn't say so itself.
-warns() {
-  checks=$((checks + 1))
-  run "${@:2}"
-  if ((status != 0)) || [[ $(wc -l <"$work/messages") != 1 ]] || ! grep -qE -- "^welkin: .*$1" "$work/messages"; then
-    fail "welkin ${*:2}: status $status, the warning doesn't match '$1': $(head -n 3 -- "$work/messages")"
-  fi
-}
 for extension in pfm webp; do
   must convert card.exr square.$extension --size 256x256
   warns "256×256 is read as latlong.*its texels are not square.*two eyes" convert square.$extension back.exr --from latlong \
@@ -72,6 +82,8 @@ refuses 2 "did you mean 'right'" info both.pfm --from latlong --eye rihgt
 refuses 2 'unknown arrangement' info both.pfm --from latlong --stereo beside
 refuses 1 'cannot tell how two eyes' info left.pfm --from latlong --eye left
 refuses 1 'holds one picture for both eyes' info both.pfm --from latlong --stereo none --eye left
+matches '"eye": "right"' info both.pfm --from latlong --eye right --header --json
+matches '"stereo": "top-bottom"' info both.pfm --from latlong --eye right --header --json
 # Two VR180 pictures beside each other are a picture of 2:1.
 must info left.pfm --from vr180 --eye right
 matches '"parameterization": "vr180"' info left.pfm --from vr180 --eye right --header --json
