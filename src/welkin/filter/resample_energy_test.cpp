@@ -73,8 +73,7 @@ std::vector<Lit> some_texels(const Map& map) {
 }
 
 class ResampleEnergyTest : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, ResampleEnergyTest, ::testing::ValuesIn(sphere::parameterization_names()),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(All, ResampleEnergyTest, ::testing::ValuesIn(names_and_windows()), test_name);
 
 /// How exactly the light of one texel is kept. Full charts are exact
 /// but for densities that are not even within a texel: of maps of 40 texels, across the kinks of octahedra.
@@ -146,6 +145,66 @@ TEST_P(ResampleEnergyTest, AConstantStaysConstant) {
       for_each_valid_texel(target, [&](int chart, int x, int y) {
         EXPECT_NEAR(*target.level.chart(chart).at(x, y), 0.7f, 0.7e-6f) << name << ' ' << x << ',' << y;
       });
+    }
+  }
+}
+
+/// A texel inside a window keeps its light, from it and to it, with square texels and others.
+TEST(ResampleEnergyTest, WindowsKeepTheLightOfTexelsInside) {
+  for (const std::string& spec : windows()) {
+    const auto p = sphere::AnyParameterization::make(spec);
+    if (p.coverage() < 0.1) continue;  // finer than all targets here
+    for (const ChartSize size : {ChartSize{60, 40}, {30, 90}}) {
+      Map window(p, size.width, size.height, 1);
+      for (const auto& [name, other_size] : {std::pair("latlong", 63), {"cube", 40}, {"octahedral", 41}}) {
+        Map other = make_map(name, other_size);
+        ResampleOptions options = with(Filter::automatic);
+        options.fill = {kDark};
+        const int x = size.width / 3, y = size.height / 4;
+        fill(window, kDark);
+        *window.level.chart(0).at(x, y) = kLight;
+        fill_borders(window);
+        const double inside = light_of(window);
+        resample(window, other, options);
+        EXPECT_NEAR(light_of(other) / inside, 1, name[0] == 'o' ? 1.2e-2 : 3e-3) << spec << " to " << name;
+        // A texel of the other that lies around there.
+        const auto at = other.parameterization.from_sphere(
+            p.to_sphere(0, (x + 0.5) / size.width, (y + 0.5) / size.height));
+        fill(other, kDark);
+        *other.level.chart(static_cast<int>(at.chart))
+             .at(static_cast<int>(at.u * other.width()), static_cast<int>(at.v * other.height())) = kLight;
+        fill_borders(other);
+        resample(other, window, options);
+        EXPECT_NEAR(light_of(window) / light_of(other), 1, name[0] == 'o' ? 1.2e-2 : 3e-3)
+            << name << " to " << spec;
+      }
+    }
+  }
+}
+
+/// Texels that aren't square, as what was asked is believed: twice as high as wide, and very wide.
+TEST(ResampleEnergyTest, TexelsThatAreNotSquareKeepTheirLight) {
+  for (const char* from : {"latlong", "sky-latlong", "equal-area", "mercator", "octahedral"}) {
+    for (const ChartSize size : {ChartSize{48, 48}, {96, 24}}) {
+      const auto p = sphere::AnyParameterization::make(from);
+      Map source(p, size.width, size.height, 1);
+      for (const auto& [to, target_size] : {std::pair("latlong", 63), {"cube", 40}}) {
+        Map target = make_map(to, target_size);
+        ResampleOptions options = with(Filter::automatic);
+        options.rotation = rotation_from_yaw_pitch_roll(31, 17, -8);
+        options.fill = {kDark};
+        fill(source, kDark);
+        fill_borders(source);
+        resample(source, target, options);
+        for_each_valid_texel(target, [&](int chart, int x, int y) {
+          EXPECT_NEAR(*target.level.chart(chart).at(x, y), kDark, 1e-6f * kDark);
+        });
+        *source.level.chart(0).at(size.width / 3, size.height / 2 + 1) = kLight;
+        fill_borders(source);
+        resample(source, target, options);
+        EXPECT_NEAR(light_of(target) / light_of(source), 1, from[0] == 'o' ? 1.2e-2 : 3e-3)
+            << from << ' ' << size.width << " to " << to;
+      }
     }
   }
 }

@@ -13,8 +13,7 @@ using namespace cases;
 constexpr Filter kPointFilters[] = {Filter::nearest, Filter::bilinear, Filter::bicubic, Filter::lanczos};
 
 class ResampleReferenceTest : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, ResampleReferenceTest, ::testing::ValuesIn(sphere::parameterization_names()),
-                         test_name);
+INSTANTIATE_TEST_SUITE_P(All, ResampleReferenceTest, ::testing::ValuesIn(names_and_windows()), test_name);
 
 /// Texels that differ by more than `tolerance`; NaN does.
 int count_different(const Map& a, const Map& b, double tolerance) {

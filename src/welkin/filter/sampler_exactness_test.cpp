@@ -15,7 +15,10 @@ std::vector<std::string> all_specs() {
   std::vector<std::string> specs = sphere::parameterization_names();
   for (const char* more :
        {"fisheye-equidistant,fov=220", "fisheye-equisolid,fov=360", "fisheye-orthographic,fov=120",
-        "fisheye-stereographic,fov=350", "cylinder,fov=150", "mercator,fov=120"}) {
+        "fisheye-stereographic,fov=350", "cylinder,fov=150", "mercator,fov=120", "vr180,fov=220",
+        "latlong,left=-90,right=90,top=45,bottom=-45", "latlong,left=90,right=270,top=60,bottom=-20",
+        "latlong,top=30,bottom=-60", "latlong,left=0,right=360",
+        "latlong,left=-70,right=230,top=90,bottom=20"}) {
     specs.push_back(more);
   }
   return specs;

@@ -8,7 +8,7 @@ namespace {
 using namespace cases;
 
 class BordersTest : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, BordersTest, ::testing::ValuesIn(sphere::parameterization_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, BordersTest, ::testing::ValuesIn(names_and_windows()), test_name);
 
 template <class Body>
 void for_each_border_texel(const Map& map, int width, const Body& body) {
@@ -71,6 +71,38 @@ TEST(BordersTest, KnownNeighbours) {
     EXPECT_EQ(*octahedral.at(-2, i), *octahedral.at(1, 7 - i));
   }
   EXPECT_EQ(*octahedral.at(-1, -1), *octahedral.at(7, 7));
+}
+
+/// A window wraps where it is all the way round, and goes on past a pole where it reaches one as well.
+TEST(BordersTest, WindowsWrapAndPassPolesOnlyWhereTheyShowBoth) {
+  const auto numbered = [](const char* spec) {
+    Map map(sphere::AnyParameterization::make(spec), 8, 4, 1);
+    float next = 0;
+    for_each_valid_texel(map, [&](int chart, int x, int y) { *map.level.chart(chart).at(x, y) = next++; });
+    fill_borders(map);
+    return map;
+  };
+  const auto at = [](const Map& map, int x, int y) { return *std::as_const(map.level).chart(0).at(x, y); };
+  for (const char* spec : {"latlong,top=30,bottom=-60", "latlong,left=0,right=360,bottom=0"}) {
+    const Map map = numbered(spec);
+    for (int y = 0; y < 4; ++y) {
+      EXPECT_EQ(at(map, -1, y), at(map, 7, y)) << spec;
+      EXPECT_EQ(at(map, 8, y), at(map, 0, y)) << spec;
+    }
+  }
+  const Map pole = numbered("latlong,left=0,right=360,bottom=0");
+  EXPECT_EQ(at(pole, 1, -1), at(pole, 5, 0));
+  EXPECT_EQ(at(pole, 6, -2), at(pole, 2, 1));
+  // Below the horizon there is nothing: the mean of three neighbours.
+  EXPECT_NEAR(at(pole, 5, 4), at(pole, 5, 3), 1e-5);
+  // A half has neither a seam nor another side of its poles.
+  const Map half = numbered("latlong,left=-90,right=90");
+  EXPECT_NEAR(at(half, -1, 2), at(half, 0, 2), 1e-5);
+  EXPECT_NEAR(at(half, 3, -1), at(half, 3, 0), 1e-5);
+  // 270° of longitude: past the pole of one half lies the other.
+  const Map most = numbered("latlong,left=-180,right=90");
+  // From −163.1° to 16.9°, which is 5⅓ columns of 33.75° on.
+  EXPECT_NEAR(at(most, 0, -1), 16.0 / 3, 1e-4);
 }
 
 TEST_P(BordersTest, ConstantsReachAsFarAsKernelsDo) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -20,8 +21,28 @@ using Function = std::function<double(const Vec3d& d)>;
 
 inline std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
-  for (char& c : name) c = c == '-' ? '_' : c;
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
   return name;
+}
+
+/// Windows of a lat-long: a crop, a half, across the seam, all around, turned, tiny, to a pole.
+inline std::vector<std::string> windows() {
+  return {"latlong,left=-90,right=90,top=45,bottom=-45",
+          "latlong,left=0",
+          "latlong,left=90,right=270,top=60,bottom=-20",
+          "latlong,top=30,bottom=-60",
+          "latlong,left=0,right=360",
+          "latlong,left=37,right=38,top=61,bottom=60",
+          "latlong,left=-70,right=230,top=90,bottom=20"};
+}
+
+/// Every parameterization, and windows.
+inline std::vector<std::string> names_and_windows() {
+  std::vector<std::string> specs = sphere::parameterization_names();
+  for (const std::string& window : windows()) specs.push_back(window);
+  return specs;
 }
 
 /// What the Error says that the work throws; `done` when it throws none.

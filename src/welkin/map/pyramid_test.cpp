@@ -8,7 +8,7 @@ namespace {
 using namespace cases;
 
 class PyramidTest : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, PyramidTest, ::testing::ValuesIn(sphere::parameterization_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, PyramidTest, ::testing::ValuesIn(names_and_windows()), test_name);
 
 /// A map of a level, to look at.
 Map map_of(const Map& like, const Level& level) {

@@ -25,7 +25,7 @@ double sum(const std::vector<TexelPoint>& points) {
 /// Every parameterization, odd sizes and coarse ones: what all texels cover is the coverage. The density of
 /// an orthographic fisheye is infinite on its rim. Edge-centred maps of one texel have no inside.
 TEST(TexelPoints, TexelsCoverTheMap) {
-  for (const std::string& name : sphere::parameterization_names()) {
+  for (const std::string& name : cases::names_and_windows()) {
     for (const int side : {1, 2, 9, 32}) {
       if (name.starts_with("openexr") && side < 9) continue;
       const Map map = cases::make_map(name, side);
@@ -45,7 +45,7 @@ TEST(TexelPoints, TexelsCoverTheMap) {
 }
 
 TEST(TexelPoints, SolidAnglesInFloatAreThose) {
-  for (const std::string& name : sphere::parameterization_names()) {
+  for (const std::string& name : cases::names_and_windows()) {
     for (const int side : {9, 32}) {
       const Map map = cases::make_map(name, side);
       const ChartSize size{map.width(), map.height()};

@@ -102,12 +102,9 @@ std::string equirectangular(const io::Panorama& said, ChartSize picture, std::ve
   constexpr double kLeast = 0.1;  // that `latlong` takes
   if (window.right - window.left < kLeast || window.top - window.bottom < kLeast)
     return refuse(part + ", less than 0.1° of it: not read as such", warnings);
-  if (!has_aspect({p.full_width, p.full_height}, 2)) {
-    warnings.push_back("its metadata declare " + part +
-                       ", which is not twice as wide as high: obeyed, its texels not square");
-  } else if (!has_aspect(picture, static_cast<double>(p.crop_width) / p.crop_height)) {
+  if (!has_aspect(picture, (window.right - window.left) / (window.top - window.bottom))) {
     warnings.push_back("its metadata declare " + part + ": " + size +
-                       " is read as that part, its texels not square");
+                       " is read as that, its texels not square");
   }
   return text_of(window);
 }

@@ -165,6 +165,11 @@ TEST(PanoramaTest, StereoOfTheFileIsObeyed) {
   const MapFileInfo right = inspect("a", file_of(256, 256, both), options);
   EXPECT_EQ(right.eye, Eye::right);
   EXPECT_TRUE(right.image.warnings.empty());
+  // Sizes of the whole picture, both eyes together.
+  const Panorama sizes{"equirectangular", 256, 256, 256, 256, 0, 0, 0, 0, 0, Stereo::top_bottom};
+  options.eye = Eye::left;
+  EXPECT_TRUE(inspect("a", file_of(256, 256, sizes), options).image.warnings.empty());
+  EXPECT_EQ(inspect("a", file_of(256, 256, sizes), options).shape->text(), "latlong");
   both.stereo = Stereo::mono;
   EXPECT_THROW(inspect("a", file_of(256, 256, both), options), Error);
   both.stereo = Stereo::left_right;

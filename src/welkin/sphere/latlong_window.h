@@ -97,7 +97,8 @@ class LatLongPart {
   }
   template <class T>
   T front_of(const Vec3<T>& d) const {
-    return d.z * constant<T>(turn_.cosine) - d.x * constant<T>(turn_.sine);
+    // 0 at a pole, not −0, which is behind.
+    return d.z * constant<T>(turn_.cosine) - d.x * constant<T>(turn_.sine) + constant<T>(0);
   }
 
   double width_ = 2 * kPi, height_ = kPi, middle_ = 0;  // radians; the elevation of the middle

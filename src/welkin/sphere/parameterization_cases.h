@@ -26,12 +26,27 @@ struct Joined<TypeList<P...>, More...> {
   using Types = ::testing::Types<P..., More...>;
 };
 
+/// A window of the lat-long.
+template <int kLeft, int kRight, int kTop, int kBottom>
+struct Window : LatLongWindow {
+  Window() {
+    left = kLeft;
+    right = kRight;
+    top = kTop;
+    bottom = kBottom;
+    update();
+  }
+};
+
 /// Every registered parameterization, and those with parameters at a few other values.
 using Cases =
     Joined<AllParameterizations, With<MirrorBall, 5>, With<MirrorBall, 2>, With<FisheyeEquidistant, 220>,
            With<FisheyeEquidistant, 360>, With<FisheyeEquisolid, 220>, With<FisheyeEquisolid, 360>,
            With<FisheyeOrthographic, 120>, With<FisheyeStereographic, 220>, With<FisheyeStereographic, 350>,
-           With<Cylinder, 150>, With<Mercator, 120>>::Types;
+           With<Cylinder, 150>, With<Mercator, 120>, Window<-90, 90, 45, -45>, Window<0, 180, 90, -90>,
+           Window<90, 270, 60, -20>, Window<-180, 180, 30, -60>, Window<0, 360, 90, -90>,
+           Window<37, 38, 61, 60>, Window<-70, 230, 90, 20>, Window<130, 200, -30, -90>, With<Vr180, 220>,
+           With<Vr180, 60>>::Types;
 
 struct CaseName {
   template <class P>

@@ -46,6 +46,41 @@ TEST(Axes, PanoramasHavePlusZInTheMiddleAndPlusXAQuarterToTheLeft) {
                            {{0, -std::sinh(kPi / 2), 1}, 0, 0.5, 0.75}});
 }
 
+/// Azimuths grow to the right, from −180 at the left edge of the whole picture to 180 at its right edge.
+TEST(Axes, WindowsArePartsOfTheLatLong) {
+  expect_rows(Window<-90, 90, 45, -45>{}, {{{0, 0, 1}, 0, 0.5, 0.5},
+                                           {{1, 0, 0}, 0, 0, 0.5},
+                                           {{-1, 0, 0}, 0, 1, 0.5},
+                                           {{0, 1, 1}, 0, 0.5, 0},
+                                           {{-1, -1, 0}, 0, 1, 1}});
+  expect_rows(Window<90, 270, 90, 0>{},
+              {{{0, 0, -1}, 0, 0.5, 1}, {{-1, 0, 0}, 0, 0, 1}, {{1, 1, 0}, 0, 1, 0.5}});
+  expect_rows(Vr180{}, {{{0, 0, 1}, 0, 0.5, 0.5}, {{0, 1, 1}, 0, 0.5, 0.25}, {{-1, 0, 1}, 0, 0.75, 0.5}});
+  const auto check = [](const auto& p, double left, double right, double top, double bottom) {
+    for (const Position& at : random_positions<LatLong>(1000, -1, 2)) {
+      const double u = (180 + left + at.u * (right - left)) / 360,
+                   v = (90 - top + at.v * (top - bottom)) / 180;
+      ASSERT_LE(distance(p.to_sphere(0, at.u, at.v), LatLong{}.to_sphere(0, u, v)), 3e-15);
+    }
+  };
+  check(Window<-90, 90, 45, -45>{}, -90, 90, 45, -45);
+  check(Window<90, 270, 60, -20>{}, 90, 270, 60, -20);
+  check(Window<37, 38, 61, 60>{}, 37, 38, 61, 60);
+  check(Window<130, 200, -30, -90>{}, 130, 200, -30, -90);
+  check(LatLongWindow{}, -180, 180, 90, -90);
+  check(Vr180{}, -90, 90, 90, -90);
+  check(Vr180(220), -110, 110, 90, -90);
+}
+
+TEST(Coverage, OfWindowsIsTheirSolidAngle) {
+  EXPECT_NEAR((Window<-90, 90, 30, -30>{}.coverage()), kPi, 1e-14);
+  EXPECT_NEAR((Window<0, 360, 90, -90>{}.coverage()), 4 * kPi, 1e-14);
+  EXPECT_NEAR((Window<0, 90, 90, 0>{}.coverage()), kPi / 2, 1e-14);
+  EXPECT_NEAR(Vr180{}.coverage(), 2 * kPi, 1e-14);
+  // Nothing lies outside of a whole world, at its seam and poles either.
+  for (const Vec3d& d : special_directions()) EXPECT_TRUE((Window<0, 360, 90, -90>{}.covers(d)));
+}
+
 TEST(Axes, CameraPicturesHavePlusZInTheMiddleMinusXRightPlusYUp) {
   expect_rows(AngularMap{},
               {{{0, 0, 1}, 0, 0.5, 0.5}, {{-1, 0, 0}, 0, 0.75, 0.5}, {{0, 1, 0}, 0, 0.5, 0.25}});
@@ -238,6 +273,8 @@ TEST(Aspect, MakesTexelsSquareWhereStated) {
   check(Mercator(60), {0, 0.3, 0.5});
   check(OctahedralPerspective{}, {3, 0.5, 1.0 / 3});
   check(HalfCube{}, {0, 0.5, 0.5});
+  check(Vr180{}, {0, 0.2, 0.5});
+  check(Window<90, 270, 60, -20>{}, {0, 0.3, 0.75});
 }
 
 TEST(Parameters, AreVisitedAndTakeEffect) {

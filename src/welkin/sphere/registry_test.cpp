@@ -33,9 +33,44 @@ std::string message_of(const char* spec) {
   return "made";
 }
 
+TEST(Registry, LatlongWithParametersIsAWindow) {
+  const auto whole = AnyParameterization::make("latlong");
+  EXPECT_TRUE(whole.traits().latlong_grid);
+  EXPECT_EQ(whole.parameters().size(), 4U);
+  const auto window = AnyParameterization::make("latlong,left=-90,right=90,top=45,bottom=-45");
+  EXPECT_EQ(window.spec(), "latlong,left=-90,right=90,top=45,bottom=-45");
+  EXPECT_FALSE(window.traits().latlong_grid);
+  EXPECT_FALSE(window.whole_world());
+  EXPECT_NEAR(window.aspect(), 2, 1e-15);
+  EXPECT_FALSE(window == whole);
+  // In any order, and with the defaults written out.
+  EXPECT_TRUE(AnyParameterization::make("latlong,bottom=-45,top=45,right=90,left=-90") == window);
+  const auto same = AnyParameterization::make("latlong,right=180,bottom=-90");
+  EXPECT_TRUE(same == whole);
+  EXPECT_TRUE(same.traits().latlong_grid);
+  EXPECT_TRUE(AnyParameterization::make("latlong,left=0,right=360").whole_world());
+  // Each has its own kernels, by both instruction sets.
+  float u[kLanes], v[kLanes], x[kLanes], y[kLanes], z[kLanes];
+  std::fill_n(u, kLanes, 0.25f);
+  std::fill_n(v, kLanes, 0.5f);
+  const Kernels* sets[] = {&window.kernels(), &kernels_baseline(parameterization_names().size())};
+  for (const Kernels* kernels : sets) {
+    kernels->to_sphere(window.self(), 0, u, v, x, y, z, kLanes);
+    EXPECT_NEAR(x[0], std::sin(kPi / 4), 1e-6);
+    EXPECT_NEAR(z[0], std::cos(kPi / 4), 1e-6);
+  }
+}
+
 TEST(Registry, RefusesBadSpecsAndSuggestsTheNearest) {
   EXPECT_NE(message_of("octahedrl").find("did you mean 'octahedral'"), std::string::npos);
-  EXPECT_NE(message_of("latlong,fov=90").find("takes no parameters"), std::string::npos);
+  EXPECT_NE(message_of("cube,fov=90").find("takes no parameters"), std::string::npos);
+  EXPECT_NE(message_of("latlong,lef=90").find("did you mean 'left'"), std::string::npos);
+  for (const char* spec : {"latlong,left=90,right=90", "latlong,left=100,right=50",
+                           "latlong,left=-180,right=181", "latlong,left=10,right=10.01"}) {
+    EXPECT_NE(message_of(spec).find("right must be 0.1° to 360° beyond left"), std::string::npos) << spec;
+  }
+  EXPECT_NE(message_of("latlong,top=10,bottom=10").find("top must be"), std::string::npos);
+  EXPECT_NE(message_of("latlong,top=91").find("is not a number in"), std::string::npos);
   EXPECT_NE(message_of("fisheye-equidistant,fvo=90").find("did you mean 'fov'"), std::string::npos);
   for (const char* value : {"fisheye-equidistant,fov=0", "fisheye-equidistant,fov=nan",
                             "fisheye-equidistant,fov=9x", "fisheye-equidistant,fov="}) {
