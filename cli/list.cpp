@@ -75,7 +75,10 @@ const std::map<std::string, std::function<void()>>& lists() {
        }},
       {"formats",
        [] {
-         for (const auto& name : io::writable_extensions()) fmt::print("{}\n", name);
+         for (const auto& format : io::all_capabilities()) {
+           for (const auto& extension : format.extensions)
+             fmt::print("{}{}\n", extension, format.writable ? "" : "  read only");
+         }
        }},
       {"maps", [] {
          for (const auto& name : synth::names()) fmt::print("{:<12} {}\n", name, synth::description(name));

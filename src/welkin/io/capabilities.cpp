@@ -57,6 +57,11 @@ PixelType pixel_type_from_name(std::string_view name) {
   throw Error(ErrorKind::bad_request, unknown_name("pixel type", name, names));
 }
 
+std::string only_read(const Capabilities& format) {
+  return format.title + " is only read here, not written (can be written: " + listed(writable_extensions()) +
+         ")";
+}
+
 bool Capabilities::holds(PixelType type) const {
   return std::find(types.begin(), types.end(), type) != types.end();
 }
@@ -82,7 +87,9 @@ const Capabilities& capabilities(std::string_view format) {
 const Capabilities& capabilities_for(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   for (const Capabilities& each : all_capabilities()) {
-    if (std::count(each.extensions.begin(), each.extensions.end(), extension) > 0) return each;
+    if (std::count(each.extensions.begin(), each.extensions.end(), extension) == 0) continue;
+    if (!each.writable) throw Error(ErrorKind::unsupported, path.string(), only_read(each));
+    return each;
   }
   throw Error(
       ErrorKind::bad_request, path.string(),
@@ -93,8 +100,9 @@ const Capabilities& capabilities_for(const std::filesystem::path& path) {
 
 std::vector<std::string> writable_extensions() {
   std::vector<std::string> names;
-  for (const Capabilities& each : all_capabilities())
-    names.insert(names.end(), each.extensions.begin(), each.extensions.end());
+  for (const Capabilities& each : all_capabilities()) {
+    if (each.writable) names.insert(names.end(), each.extensions.begin(), each.extensions.end());
+  }
   return names;
 }
 

@@ -37,7 +37,7 @@ enum class Channels {
   any,   ///< any names, up to as many as a map can have
 };
 
-/// What a format holds, as Welkin writes it.
+/// What a format holds, as Welkin writes it; of one that is only read, as Welkin reads it.
 struct WELKIN_API Capabilities {
   std::string format;                     ///< `exr`
   std::string title;                      ///< as people write it: `EXR`, `WebP`
@@ -53,19 +53,21 @@ struct WELKIN_API Capabilities {
   bool negative = false;                  ///< values below 0
   bool attributes = false;     ///< text metadata, with which a map's shape comes back when it is read
   int longest_side = 1 << 20;  ///< of a picture, texels
+  bool writable = true;        ///< false: the format is only read
 
   /// Whether `types` has this one.
   bool holds(PixelType type) const;
 };
 
-/// All formats that are read, in the order in which a file is tried; all can be written too.
+/// All formats that are read, in the order in which a file is tried; Capabilities::writable says which can be
+/// written too.
 WELKIN_API const std::vector<Capabilities>& all_capabilities();
 
 /// Those of the format of that name. Throws Error (bad_request), which suggests the nearest.
 WELKIN_API const Capabilities& capabilities(std::string_view format);
 
-/// Those of the format that a file of this name is written in. Throws Error (bad_request), about the file,
-/// when the extension is none that can be written.
+/// Those of the format that a file of this name is written in. Throws Error about the file: (bad_request)
+/// when the extension is none that is known, (unsupported) when it is of a format that is only read.
 WELKIN_API const Capabilities& capabilities_for(const std::filesystem::path& path);
 
 /// Extensions that can be written, without dots: `exr hdr ktx2 pfm png jpg jpeg tif tiff webp`.

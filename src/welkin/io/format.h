@@ -31,7 +31,7 @@ struct Format {
   bool (*matches)(std::span<const std::byte> bytes);  ///< by magic number
   std::unique_ptr<FormatReader> (*open)(const Source& source);
   /// The request lies within the capabilities. Throws Error without the file's name, which the caller
-  /// adds.
+  /// adds. Null where Capabilities::writable is false.
   WriteReport (*write)(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options);
   /// Whether `write` takes parts that are drawn when they are written; for others they are drawn before.
   bool draws_rows = false;
@@ -51,6 +51,10 @@ Format png_format();
 Format jpeg_format();
 Format tiff_format();
 Format webp_format();
+Format jxl_format();
+
+/// That a format is not written, and which are: the message for who asks it to be.
+std::string only_read(const Capabilities& format);
 
 /// Throws Error when the decoded floats of width×height×channels would pass options.max_bytes or a side is
 /// not in 1…2^20. Call it before any allocation.

@@ -70,7 +70,7 @@ TEST(Formats, UnknownFilesAreExplained) {
       message.find("a.xyz: not an image of a known format: begins with '.XYZ89a.' (02 58 59 5a 38 39 61 01)"),
       std::string::npos)
       << message;
-  EXPECT_NE(message.find("exr, hdr, ktx2, pfm, png, jpeg, tiff, webp"), std::string::npos) << message;
+  EXPECT_NE(message.find("exr, hdr, ktx2, pfm, png, jpeg, tiff, webp, jxl"), std::string::npos) << message;
   const TemporaryFolder folder;
   const std::string missing = (folder / "missing.png").string();
   EXPECT_EQ(error_of([&] { open(fs::path(missing)); }), missing + ": No such file or directory");
@@ -86,6 +86,31 @@ TEST(Formats, UnknownExtensionsAreExplained) {
   EXPECT_NE(message_for("a.hdrr").find("a.hdrr: unknown extension 'hdrr'; did you mean 'hdr'?"),
             std::string::npos);
   EXPECT_NE(message_for("a").find("a: the name has no extension"), std::string::npos);
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(Formats, OnlyReadOnesAreNotWritten) {
+  const TemporaryFolder folder;
+  const Image image = noise(2, 2, 3);
+  const WritePart part{"", image.view(), names_of(3)};
+  int count = 0;
+  for (const Capabilities& format : all_capabilities()) {
+    if (format.writable) continue;
+    ++count;
+    const std::string cause =
+        format.title +
+        " is only read here, not written (can be written: exr, hdr, ktx2, pfm, png, jpg, "
+        "jpeg, tif, tiff, webp)";
+    for (const std::string& extension : format.extensions) {
+      const fs::path path = folder / ("a." + extension);
+      EXPECT_EQ(error_of([&] { write(path, {&part, 1}); }), path.string() + ": " + cause);
+      EXPECT_EQ(error_of([&] { check_write(path, 2, 2, names_of(3)); }), path.string() + ": " + cause);
+    }
+    MemorySink sink;
+    EXPECT_EQ(error_of([&] { write(sink, format.format, {&part, 1}); }), cause);
+    EXPECT_EQ(sink.size(), 0u);
+  }
+  EXPECT_GE(count, 1);
   EXPECT_EQ(folder.entries(), 0);
 }
 

@@ -85,7 +85,7 @@ struct Panorama {
 
 /// What a file says of itself, known before any pixel is decoded.
 struct FileInfo {
-  std::string format;              ///< `exr`, `hdr`, `ktx2`, `pfm`, `png`, `jpeg`, `tiff`, `webp`
+  std::string format;              ///< `exr`, `hdr`… as Capabilities::format
   std::vector<PartInfo> parts;     ///< its pictures, at least one
   int levels = 1;                  ///< of a mip pyramid
   int layers = 0;                  ///< of an array texture; 0 when it is none

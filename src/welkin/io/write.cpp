@@ -11,7 +11,9 @@ namespace {
 
 const Format& format_named(std::string_view name) {
   for (const Format& format : formats()) {
-    if (format.capabilities.format == name) return format;
+    if (format.capabilities.format != name) continue;
+    if (format.write == nullptr) throw Error(ErrorKind::unsupported, only_read(format.capabilities));
+    return format;
   }
   return format_named(capabilities(name).format);  // throws
 }
