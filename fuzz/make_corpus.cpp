@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "welkin/base/error.h"
+#include "welkin/io/heif/heif_test_files.h"
 #include "welkin/io/image_file.h"
+#include "welkin/io/jxl/jxl_test_files.h"
 
-/// Writes small files of every format, type and compression that the library writes, and some that others do:
-/// the seeds of the fuzzers.
+/// Writes small files of every format, type and compression that the library writes, of the formats that it
+/// only reads, and some that others write: the seeds of the fuzzers.
 ///
 ///     make_corpus FOLDER      makes FOLDER/exr/…, FOLDER/hdr/…
 namespace {
@@ -171,6 +173,31 @@ void write_other_ktx2(const fs::path& folder) {
   }
 }
 
+void save(const fs::path& path, const std::vector<std::byte>& bytes) {
+  std::ofstream stream(path, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!stream.good()) throw std::runtime_error(path.string() + " cannot be written");
+}
+
+void write_jxl_seeds(const fs::path& folder) {
+  using io::test::JxlOptions;
+  fs::create_directories(folder);
+  JxlOptions lossy, floats = io::test::linear_float(), packet, ten_bits;
+  lossy.distance = 1;
+  packet.xmp = "<x/>";
+  packet.brotli = true;
+  packet.orientation = 6;
+  ten_bits.bits = 10;
+  ten_bits.colour = io::test::jxl_colour(JXL_TRANSFER_FUNCTION_PQ, JXL_PRIMARIES_2100);
+  int count = 0;
+  for (const JxlOptions& options : {JxlOptions(), lossy, floats, packet, ten_bits}) {
+    for (const int channels : {1, 3, 4}) {
+      save(folder / ("seed" + std::to_string(count++) + ".jxl"),
+           io::test::encoded_jxl(test_picture(17, 9, channels), options));
+    }
+  }
+}
+
 /// Written pages whose samples are said to be of other bits and formats, no longer ones.
 void write_other_tiff(const fs::path& folder) {
   const Image image = test_picture(17, 9, 1);
@@ -200,6 +227,36 @@ void write_other_tiff(const fs::path& folder) {
   }
 }
 
+void write_heif_seeds(const fs::path& folder) {
+  using io::test::HeifOptions;
+  fs::create_directories(folder);
+  int count = 0;
+  for (const auto codec : {heif_compression_AV1, heif_compression_HEVC}) {
+    for (const auto space : {heif_colorspace_monochrome, heif_colorspace_YCbCr, heif_colorspace_RGB}) {
+      for (const bool more : {false, true}) {
+        const heif_chroma chroma = space == heif_colorspace_monochrome ? heif_chroma_monochrome
+                                   : space == heif_colorspace_YCbCr    ? heif_chroma_420
+                                                                       : heif_chroma_444;
+        const io::test::HeifPicture picture{
+            17, 9, more ? 12 : 8, space, chroma, more, [](heif_channel channel, int x, int y) {
+              return (20 * x + 9 * y + 30 * static_cast<int>(channel)) & 255;
+            }};
+        HeifOptions options;
+        options.codec = codec;
+        options.lossless = !more;
+        if (more) {
+          options.orientation = heif_orientation_rotate_90_cw;
+          options.xmp = "<x/>";
+          options.premultiplied = true;
+          options.grid = true;
+          options.transfer = 16;
+        }
+        save(folder / ("seed" + std::to_string(count++) + ".heif"), io::test::encoded_heif(picture, options));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -213,6 +270,8 @@ int main(int argc, char** argv) {
     write_other_hdr(root / "hdr");
     write_other_ktx2(root / "ktx2");
     write_other_tiff(root / "tiff");
+    write_jxl_seeds(root / "jxl");
+    write_heif_seeds(root / "heif");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_corpus: %s\n", error.what());
     return 1;

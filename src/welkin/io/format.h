@@ -52,6 +52,8 @@ Format jpeg_format();
 Format tiff_format();
 Format webp_format();
 Format jxl_format();
+Format avif_format();
+Format heif_format();
 
 /// That a format is not written, and which are: the message for who asks it to be.
 std::string only_read(const Capabilities& format);

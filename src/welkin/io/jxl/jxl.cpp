@@ -8,6 +8,7 @@
 #include "welkin/io/code_points.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/jxl/decoder.h"
+#include "welkin/io/transfer.h"
 
 /// JPEG XL (ISO/IEC 18181), by libjxl.
 namespace welkin::io {
@@ -43,14 +44,34 @@ double largest_integer(std::uint32_t bits, std::uint32_t exponent_bits) {
   return exponent_bits == 0 && bits <= 16 ? std::exp2(bits) - 1 : 0;
 }
 
-/// libjxl multiplies integers by a rounded 1/largest; what is an integer to float's precision is divided by
-/// it instead. Others, of lossy pictures, stay.
-float nearest_fraction(float value, double largest) {
-  constexpr double kPrecision = 1.0 / (1 << 22);
-  const double scaled = value * largest;
-  const double rounded = std::nearbyint(scaled);
-  return std::abs(scaled - rounded) <= kPrecision * largest ? static_cast<float>(rounded / largest) : value;
-}
+/// Floats from libjxl → linear ones.
+class ChannelDecoder {
+ public:
+  /// `largest` as from largest_integer.
+  ChannelDecoder(double largest, bool srgb) : largest_(largest), srgb_(srgb) {
+    for (double code = 0; largest > 0 && code <= largest; ++code) {
+      const double value = code / largest;
+      integers_.push_back(static_cast<float>(srgb ? srgb_to_linear(value) : value));
+    }
+  }
+
+  float operator()(float value) const {
+    // libjxl multiplies integers by a rounded 1/largest; what is an integer to float's precision is one.
+    // Others, of lossy pictures, stay.
+    constexpr double kPrecision = 1.0 / (1 << 22);
+    const double scaled = value * largest_, rounded = std::nearbyint(scaled);
+    if (largest_ > 0 && rounded >= 0 && rounded <= largest_ &&
+        std::abs(scaled - rounded) <= kPrecision * largest_) {
+      return integers_[static_cast<std::size_t>(rounded)];
+    }
+    return srgb_ ? static_cast<float>(srgb_to_linear(value)) : value;
+  }
+
+ private:
+  double largest_;
+  bool srgb_;
+  std::vector<float> integers_;
+};
 
 bool near(const Chromaticities& a, const Chromaticities& b) {
   constexpr double kTolerance = 1e-4;  // libjxl's own primaries of sRGB are rounded
@@ -124,9 +145,9 @@ class JxlReader : public FormatReader {
     assert(part == 0 && out.width == info_.parts[0].width && out.height == info_.parts[0].height);
     assert(channels.size() == static_cast<std::size_t>(out.channels));
     static_cast<void>(part);
-    const PartInfo& picture = info_.parts[0];
-    Target target{PixelDecoder(PixelType::float32, srgb_channels(picture.channels, info_.colour)), largest_,
-                  channels, out};
+    Target target{{}, channels, out};
+    const std::vector<bool> srgb = srgb_channels(info_.parts[0].channels, info_.colour);
+    for (std::size_t k = 0; k < srgb.size(); ++k) target.decoders.emplace_back(largest_[k], srgb[k]);
     JxlFile file(source_, JXL_DEC_COLOR_ENCODING | JXL_DEC_FULL_IMAGE);
     for (JxlDecoderStatus status = file.next(); status != JXL_DEC_FULL_IMAGE; status = file.next()) {
       if (status == JXL_DEC_COLOR_ENCODING) prefer_original_colour(file);
@@ -143,8 +164,7 @@ class JxlReader : public FormatReader {
  private:
   /// Where libjxl's runs of pixels go.
   struct Target {
-    PixelDecoder pixels;
-    std::vector<double> largest;  ///< of each stored channel; 0: it isn't integer
+    std::vector<ChannelDecoder> decoders;  ///< of the stored channels
     std::span<const int> channels;
     ImageView<float> out;
 
@@ -152,19 +172,14 @@ class JxlReader : public FormatReader {
     static void take(void* target, std::size_t x, std::size_t y, std::size_t count,
                      const void* run) noexcept {
       const auto& self = *static_cast<const Target*>(target);
-      constexpr std::size_t kPixels = 256, kMaxChannels = 4;
-      float stored[kPixels * kMaxChannels];
-      const std::size_t step = self.largest.size();
-      const auto* values = static_cast<const float*>(run);
-      for (std::size_t done = 0; done < count; done += kPixels) {
-        const std::size_t some = std::min(kPixels, count - done);
-        for (std::size_t i = 0; i < some * step; ++i) {
-          const double largest = self.largest[i % step];
-          const float value = values[done * step + i];
-          stored[i] = largest > 0 ? nearest_fraction(value, largest) : value;
+      const std::size_t stored = self.decoders.size(), wanted = self.channels.size();
+      const auto* pixel = static_cast<const float*>(run);
+      float* to = self.out.row(static_cast<int>(y)) + x * wanted;
+      for (std::size_t i = 0; i < count; ++i, pixel += stored, to += wanted) {
+        for (std::size_t k = 0; k < wanted; ++k) {
+          const auto channel = static_cast<std::size_t>(self.channels[k]);
+          to[k] = self.decoders[channel](pixel[channel]);
         }
-        float* row = self.out.row(static_cast<int>(y)) + (x + done) * self.channels.size();
-        self.pixels.decode(stored, self.channels, static_cast<int>(some), row, self.out.channels);
       }
     }
   };
