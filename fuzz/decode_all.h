@@ -27,7 +27,7 @@ inline void decode_all(std::string_view format, const std::uint8_t* data, std::s
     break;
   }
   try {
-    const auto reader = io::open(bytes, "fuzz", {io::Colour::automatic, kMaxBytes});
+    const auto reader = io::open(bytes, "fuzz", {.max_bytes = kMaxBytes});
     for (std::size_t part = 0; part < std::min(kMaxParts, reader->info().parts.size()); ++part) {
       const io::PartInfo& info = reader->info().parts[part];
       std::vector<int> channels;

@@ -116,10 +116,7 @@ TEST(UnreadFormats, OtherBytesAreNotNamed) {
   const std::string rest(200, '\5');
   for (const std::string& bytes :
        {"BM"s, "BMxxxxxxxxxxxxxxxxxxx"s + rest, tga(2, 4, 3, 24).substr(0, 30), tga(2, 0, 3, 24),
-        tga(4, 4, 3, 24), tga(2, 4, 3, 25), "P8\n1 1\n" + rest, "\1"s, "ab"s, "sB" + rest,
-        "\0\0\0\x18"
-        "ftypavif"s +
-            rest})
+        tga(4, 4, 3, 24), tga(2, 4, 3, 25), "P8\n1 1\n" + rest, "\1"s, "ab"s, "sB" + rest})
     EXPECT_NE(message_of(bytes).find("not an image of a known format"), std::string::npos) << bytes;
 }
 

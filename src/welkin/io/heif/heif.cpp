@@ -128,7 +128,7 @@ class HeifReader : public FormatReader {
     // Exif is not read: its orientation gives way to the boxes irot and imir (ISO/IEC 23008-12, A.2.4), which
     // libheif has applied.
     if (!declared_.icc.empty()) {
-      info_.colour = Colour::linear;
+      info_.colour = Colour::srgb;  // should the profile turn out to be damaged
     } else if (code_points_ != nullptr) {
       declare_code_points(code_points_->color_primaries, code_points_->transfer_characteristics, declared_,
                           info_);

@@ -244,8 +244,20 @@ TEST(Heif, IccProfilesAreDeclaredAndTheMatrixStays) {
   EXPECT_EQ(reader->declared().icc, options.icc);
   EXPECT_EQ(reader->declared().primaries, std::nullopt);
   EXPECT_EQ(reader->declared().curve, Curve::none);
-  const Image image = read_part(*reader);
+  ReadOptions as_stored;
+  as_stored.colour = Colour::linear;
+  const Image image = raw_picture(bytes, as_stored);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(image.at(7, 9)[k], smooth(k, 7, 9), 2.1 / 1023);
+}
+
+// SMPTE ST 2084 has 203 cd/m², diffuse white, at 0.58068888.
+TEST(Heif, DiffuseWhiteOfPqIsOne) {
+  HeifOptions options = identity(16);
+  options.primaries = 9;
+  HeifPicture picture{
+      16, 16, 12, heif_colorspace_RGB, heif_chroma_444, false, [](heif_channel, int, int) { return 2378; }};
+  const Image image = decoded(encoded_heif(picture, options));
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(image.at(8, 8)[k], 1, 0.002);
 }
 
 TEST(Heif, PremultipliedAlphaIsDeclared) {

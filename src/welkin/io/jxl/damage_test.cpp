@@ -1,5 +1,7 @@
 #include <tbb/global_control.h>
 
+#include <algorithm>
+
 #include "welkin/io/jxl/jxl_test_files.h"
 #include "welkin/io/test_readers.h"
 
@@ -38,6 +40,32 @@ TEST(JxlDamage, HeaderIsCheckedBeforeAnyMemory) {
   ReadOptions options;
   options.max_bytes = 64 * 32 * 3 * 4 - 1;
   EXPECT_NE(error_of([&] { raw_reader(bytes, options); }).find("over the limit"), std::string::npos);
+}
+
+// The last box may leave its size open.
+TEST(JxlDamage, BoxesToTheEndOfTheFileAreRead) {
+  const Image image = noise(9, 5, 3);
+  Bytes bytes = encoded_jxl(image, linear_float());
+  const Bytes type = bytes_of("jxlc");
+  const auto found = std::search(bytes.begin(), bytes.end(), type.begin(), type.end());
+  ASSERT_NE(found, bytes.end());
+  std::fill(found - 4, found, std::byte{0});
+  expect_same(raw_picture(bytes), image);
+}
+
+// 17 MiB of one letter are a few bytes.
+TEST(JxlDamage, LargeXmpIsNotRead) {
+  for (const bool brotli : {false, true}) {
+    JxlOptions options = linear_float();
+    options.xmp = std::string(std::size_t{17} << 20, 'x');
+    options.brotli = brotli;
+    const Bytes bytes = encoded_jxl(noise(9, 5, 3), options);
+    EXPECT_EQ(bytes.size() < 10000u, brotli);
+    const auto reader = raw_reader(bytes);
+    EXPECT_EQ(reader->declared().xmp, "");
+    ASSERT_EQ(reader->info().warnings.size(), 1u);
+    EXPECT_EQ(reader->info().warnings[0], "its XMP packet is too large, and not read");
+  }
 }
 
 TEST(JxlDamage, ThreadsDoNotMatter) {

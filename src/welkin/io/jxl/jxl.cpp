@@ -20,7 +20,7 @@ constexpr unsigned char kContainer[] = {0, 0, 0, 12, 'J', 'X', 'L', ' ', 0x0d, 0
 /// The emptiest pictures that libjxl writes have 2^16 pixels to the byte.
 constexpr std::uint64_t kMostPixelsOfByte = 1 << 18;
 
-/// A compressed XMP packet may expand to any size.
+/// An XMP packet may have any size, or expand to it.
 constexpr std::size_t kMaxXmpBytes = std::size_t{16} << 20;
 
 bool matches(std::span<const std::byte> bytes) {
@@ -186,19 +186,26 @@ class JxlReader : public FormatReader {
 
   void read_boxes() {
     Boxes boxes(source_, source_.bytes);
-    bool compressed = false;
+    bool compressed = false, too_large = false;
     while (const std::optional<Box> box = boxes.next()) {
       const std::string_view content(reinterpret_cast<const char*>(box->content.data()), box->content.size());
       // The Exif box is not read: its orientation gives way to the codestream's (ISO/IEC 18181-2).
-      if (box->type == "xml " && declared_.xmp.empty() && content.size() <= kMaxXmpBytes)
-        declared_.xmp = content;
+      if (box->type == "xml ") {
+        if (content.size() > kMaxXmpBytes) {
+          too_large = true;
+        } else if (declared_.xmp.empty()) {
+          declared_.xmp = content;
+        }
+      }
       if (box->type == "brob" && content.starts_with("xml ")) compressed = true;
       if (box->type == "jbrd") from_jpeg_ = true;
     }
-    if (!compressed || !declared_.xmp.empty()) return;
-    std::optional<std::string> xmp = compressed_xmp(source_);
-    if (!xmp) info_.warnings.push_back("its XMP packet is too large, and not read");
-    declared_.xmp = std::move(xmp).value_or("");
+    if (compressed && declared_.xmp.empty()) {
+      std::optional<std::string> xmp = compressed_xmp(source_);
+      too_large = too_large || !xmp;
+      declared_.xmp = std::move(xmp).value_or("");
+    }
+    if (too_large) info_.warnings.push_back("its XMP packet is too large, and not read");
   }
 
   void read_header(const JxlFile& file) {
@@ -317,7 +324,9 @@ class JxlReader : public FormatReader {
 
   void read_icc(const JxlFile& file) {
     std::size_t size = 0;
-    info_.colour = Colour::linear;
+    // As for integers and floats of no declared meaning, should the profile turn out to be damaged.
+    const PixelType type = info_.parts[0].type;
+    info_.colour = type == PixelType::uint8 || type == PixelType::uint16 ? Colour::srgb : Colour::linear;
     if (JxlDecoderGetICCProfileSize(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_DATA, &size) ==
         JXL_DEC_SUCCESS) {
       declared_.icc.resize(size);
@@ -328,8 +337,9 @@ class JxlReader : public FormatReader {
       }
     }
     declared_.icc.clear();
-    info_.colour = Colour::srgb;
-    info_.warnings.push_back("what its colours mean is not known; sRGB is assumed");
+    info_.warnings.push_back(info_.colour == Colour::srgb
+                                 ? "what its colours mean is not known; sRGB is assumed"
+                                 : "what its colours mean is not known; linear values are assumed");
   }
 
   Source source_;
