@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <set>
 
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/srgb_encoder.h"
@@ -75,13 +76,13 @@ std::size_t PixelEncoder::pixel_bytes() const {
 void PixelEncoder::encode(const float* in, int image_channels, int count, std::byte* stored,
                           WriteReport& report) const {
   if (!alpha_) return encode_as_they_are(in, image_channels, count, stored, report);
+  const auto end = std::find(order_.begin(), order_.end(), *alpha_);
+  const std::set<int> colours(order_.begin(), end);
   std::vector<float> straight(in, in + static_cast<std::ptrdiff_t>(count) * image_channels);
   for (float* pixel = straight.data(); pixel < straight.data() + straight.size(); pixel += image_channels) {
     const float alpha = pixel[*alpha_];
     if (!(alpha > 0)) continue;
-    for (int c = 0; c < image_channels; ++c) {
-      if (c != *alpha_) pixel[c] /= alpha;
-    }
+    for (const int c : colours) pixel[c] /= alpha;
   }
   encode_as_they_are(straight.data(), image_channels, count, stored, report);
 }

@@ -18,8 +18,8 @@ class PixelEncoder {
  public:
   /// Any type but the packed ones. Stored channel k holds the image's channel order[k], sRGB encoded where
   /// srgb[k]. One that is stored more than once (grey as R G B) is counted once. Where `alpha` is a channel
-  /// of the image, the others are divided by it first: images have associated alpha, these files straight
-  /// one. What has no alpha but shines keeps its colour.
+  /// of the image, those that stand before it in `order` are divided by it first: images have associated
+  /// alpha, these files straight one. What has no alpha but shines keeps its colour.
   PixelEncoder(PixelType type, std::vector<int> order, std::vector<bool> srgb, std::optional<int> alpha = {});
 
   std::size_t pixel_bytes() const;

@@ -123,6 +123,22 @@ TEST(TiffKinds, WhiteIsZeroOfAnyNumberOfBits) {
     tiff.data = bits % 8 == 0 ? integers({0, largest}, bits / 8) : packed({0, largest}, bits, 2);
     expect_values(tiff.file(), {1, 0});
   }
+  // Alpha beside grey is not inverted.
+  for (const int bits : {8, 12}) {
+    const auto largest = (std::uint32_t{1} << bits) - 1;
+    OtherTiff tiff{.width = 2, .samples = 2, .bits = bits, .photometric = 0};
+    tiff.more[338] = {3, {1}};
+    const auto row = [&](const std::vector<std::uint32_t>& codes) {
+      return bits == 8 ? integers(codes, 1) : packed(codes, bits, codes.size());
+    };
+    tiff.data = row({0, largest, largest, 0});
+    expect_values(tiff.file(), {1, 1, 0, 0});
+    tiff.planar = true;
+    tiff.data = row({0, largest});
+    const Bytes alpha = row({largest, 0});
+    tiff.data.insert(tiff.data.end(), alpha.begin(), alpha.end());
+    expect_values(tiff.file(), {1, 1, 0, 0});
+  }
   for (const int format : {2, 3}) {
     const OtherTiff tiff{.width = 1, .bits = 32, .format = format, .photometric = 0, .data = Bytes(4)};
     EXPECT_NE(error_of([&] { info_of(tiff.file()); }).find("of which 0 is white, which is not read"),
@@ -219,6 +235,23 @@ TEST(TiffKinds, WrittenAlphaIsAssociatedWhereValuesAreLinear) {
     EXPECT_EQ(written(type), AlphaKind::associated) << name_of(type);
   for (const PixelType type : {uint8, uint16}) EXPECT_EQ(written(type), AlphaKind::straight) << name_of(type);
   EXPECT_EQ(written(float32, Colour::srgb), AlphaKind::straight);
+  // Whole colours, as other programs expect them: half of white is white of alpha ½. Others are left alone.
+  Image half_white(1, 1, 5);
+  const float values[] = {0.5f, 0.5f, 0.25f, 0.5f, 0.25f};
+  std::copy(values, values + 5, half_white.at(0, 0));
+  const TemporaryFolder of_integers;
+  const WritePart five{"", half_white.view(), {"R", "G", "B", "A", "Z"}};
+  WriteOptions words;
+  words.type = uint16;
+  write(of_integers / "a.tif", {&five, 1}, words);
+  const Bytes file = file_bytes(of_integers / "a.tif");
+  const auto stored = tiff_format().open({file, "a.tif", {}});
+  const Image whole = read_part(*stored), again = decoded(file);
+  const float expected[] = {1, 1, 0.5f, 0.5f, 0.25f};
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_NEAR(whole.at(0, 0)[k], expected[k], 4e-5f);
+    EXPECT_NEAR(again.at(0, 0)[k], values[k], 4e-5f);
+  }
   // Names of further channels don't hide the kind.
   const Image image = noise(2, 2, 5);
   const WritePart part{"", image.view(), {"R", "G", "B", "A", "Z"}};
@@ -232,9 +265,28 @@ TEST(TiffKinds, OrientationIsDeclaredAndRowsAreAsStored) {
     OtherTiff tiff{.width = 2, .height = 2, .data = integers({0, 51, 102, 255}, 1)};
     tiff.more[274] = {3, {orientation}};
     const int expected = orientation == 0 || orientation == 9 ? 1 : static_cast<int>(orientation);
-    EXPECT_EQ(declared_of(tiff.file()).orientation, expected);
-    expect_values(tiff.file(), {0, 0.2, 0.4, 1});
-    EXPECT_TRUE(info_of(tiff.file()).notes.empty());
+    const Bytes file = tiff.file();
+    const auto reader = tiff_format().open({file, "a.tif", linear()});
+    EXPECT_EQ(reader->declared().orientation, expected);
+    EXPECT_TRUE(reader->info().notes.empty());
+    const Image image = read_part(*reader);
+    const float values[] = {0, 0.2f, 0.4f, 1};
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(*image.at(i % 2, i / 2), values[i]);
+  }
+}
+
+TEST(TiffKinds, PalettesAreAsStoredInEveryOrientation) {
+  OtherTiff tiff{.width = 3, .height = 2, .photometric = 3, .data = integers({0, 1, 2, 3, 4, 5}, 1)};
+  std::vector<std::uint32_t> map(3 * 256);
+  for (std::uint32_t i = 0; i < 6; ++i) map[i] = 51 * i * 257;
+  tiff.more[320] = {3, map};
+  for (std::uint32_t orientation = 1; orientation <= 8; ++orientation) {
+    tiff.more[274] = {3, {orientation}};
+    const Bytes file = tiff.file();
+    const auto reader = tiff_format().open({file, "a.tif", linear()});
+    EXPECT_EQ(reader->declared().orientation, static_cast<int>(orientation));
+    const Image image = read_part(*reader);
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(image.at(i % 3, i / 3)[0], i / 5.0, 1e-6) << orientation;
   }
 }
 

@@ -280,10 +280,9 @@ TiffPage understand_tiff_page(TIFF* tiff, const Source& source) {
     page.inverted = photometric == PHOTOMETRIC_MINISWHITE;
     if (page.inverted && type->kind != TiffSamples::Kind::unsigned_integer)
       refuse("a picture of " + type->name() + " of which 0 is white");
-    if (!type->plain()) {
-      page.decoding = TiffDecoding::unpack;
-      page.notes.push_back(type->name());
-    }
+    if (!type->plain()) page.notes.push_back(type->name());
+    // Samples beside grey are not inverted with it.
+    if (!type->plain() || (page.inverted && samples > 1)) page.decoding = TiffDecoding::unpack;
     if (type->kind == TiffSamples::Kind::signed_integer)
       page.warnings.push_back(type->name() +
                               " are read as linear values, the largest as 1; negative ones are kept");

@@ -28,7 +28,7 @@ struct TiffPage {
   TiffSamples samples;          ///< as they are stored
   int stored_samples = 0;       ///< per pixel, before any conversion
   bool planar = false;
-  bool inverted = false;  ///< 0 is white
+  bool inverted = false;  ///< 0 is white, of the first sample
   bool tiled = false;
   int block_width = 0;  ///< of a strip or a tile
   int block_height = 0;

@@ -133,13 +133,14 @@ std::string name_of_tiff_samples(int bits, int format) {
   }
 }
 
-void unpack_tiff_samples(const TiffSamples& samples, bool inverted, const std::byte* row, std::size_t count,
-                         float* values) {
+void unpack_tiff_samples(const TiffSamples& samples, std::size_t inverted_step, const std::byte* row,
+                         std::size_t count, float* values) {
   const int bits = samples.bits;
   switch (samples.kind) {
     case Kind::unsigned_integer: {
       const double largest = largest_of(bits);
       return for_integers(bits, row, count, [&](std::size_t i, std::uint32_t code) {
+        const bool inverted = inverted_step > 0 && i % inverted_step == 0;
         values[i] = static_cast<float>((inverted ? largest - code : code) / largest);
       });
     }

@@ -32,10 +32,11 @@ std::optional<TiffSamples> tiff_samples(int bits, int format);
 std::string name_of_tiff_samples(int bits, int format);
 
 /// `count` samples of a row as libtiff hands it over, to floats. Unsigned integers of n bits become k/(2^n −
-/// 1), or 1 minus that where `inverted` (0 is white); signed ones k/(2^(n−1) − 1), negative values kept;
-/// 64-bit floats the nearest ones. Integers of 8, 16, 24 and 32 bits and all floats are in native byte order,
-/// others are packed from the most significant bit on.
-void unpack_tiff_samples(const TiffSamples& samples, bool inverted, const std::byte* row, std::size_t count,
-                         float* values);
+/// 1), and every `inverted_step`-th of them, from the first on, 1 minus that (0 is white; no step: none of
+/// them); signed ones k/(2^(n−1) − 1), negative values kept; 64-bit floats the nearest ones. Integers of 8,
+/// 16, 24 and 32 bits and all floats are in native byte order, others are packed from the most significant
+/// bit on.
+void unpack_tiff_samples(const TiffSamples& samples, std::size_t inverted_step, const std::byte* row,
+                         std::size_t count, float* values);
 
 }  // namespace welkin::io

@@ -69,6 +69,7 @@ struct Block {
   std::byte* samples;
   std::size_t row_bytes;
   int x, y, width, height;
+  int plane;
 };
 
 class TiffReader : public FormatReader {
@@ -180,7 +181,8 @@ class TiffReader : public FormatReader {
                           x,
                           y,
                           std::min(page.block_width, page.part.width - x),
-                          std::min(page.block_height, page.part.height - y)};
+                          std::min(page.block_height, page.part.height - y),
+                          plane};
         read_block(page, plane, block, samples);
         use(block);
       }
@@ -213,6 +215,7 @@ class TiffReader : public FormatReader {
                     std::span<const int> channels, ImageView<float> out) {
     const std::size_t values = static_cast<std::size_t>(block.width) * srgb.size();
     const bool plain = page.decoding == TiffDecoding::samples;
+    const std::size_t inverted_step = page.inverted && block.plane == 0 ? srgb.size() : 0;
     const PixelDecoder decoder(plain ? page.part.type : PixelType::float32, std::move(srgb));
     const auto place_row = [&](int y, std::vector<float>& floats) {
       std::byte* row = block.samples + static_cast<std::size_t>(y) * block.row_bytes;
@@ -220,7 +223,7 @@ class TiffReader : public FormatReader {
         std::transform(row, row + block.row_bytes, row, [](std::byte byte) { return ~byte; });
       if (!plain) {
         floats.resize(values);
-        unpack_tiff_samples(page.samples, page.inverted, row, values, floats.data());
+        unpack_tiff_samples(page.samples, inverted_step, row, values, floats.data());
         if (page.decoding == TiffDecoding::xyz) {
           for (std::size_t i = 0; i < values; i += 3) xyz_to_rgb(&floats[i]);
         }

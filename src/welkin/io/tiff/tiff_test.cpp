@@ -66,14 +66,17 @@ TEST(Tiff, OtherTypesComeBackRoundedOnce) {
   };
   constexpr float kSteepest = 2.4f / 1.055f;  // slope of sRGB decoding at 1
   for (const Case& each :
-       {Case{PixelType::uint8, 0.5f / 255 * kSteepest, Colour::srgb},
-        Case{PixelType::uint16, 0.5f / 65535 * kSteepest, Colour::srgb},
+       {Case{PixelType::uint8, 0.5f / 255 * (kSteepest + 1), Colour::srgb},  // and alpha's, which multiplies
+        Case{PixelType::uint16, 0.5f / 65535 * (kSteepest + 1), Colour::srgb},
         Case{PixelType::uint32, 0x1p-24f, Colour::linear}, Case{PixelType::half, 0x1p-12f, Colour::linear}}) {
     for (const char* compression : {"none", "zip", "lzw"}) {
       WriteOptions options;
       options.type = each.type;
       options.compression = compression;
-      const Image image = noise(40, 30, 4);
+      Image image = noise(40, 30, 4);
+      for (int i = 0; i < 40 * 30; ++i) {
+        for (int k = 0; k < 3; ++k) image.at(i % 40, i / 40)[k] *= image.at(i % 40, i / 40)[3];
+      }
       const Bytes bytes = encoded("tiff", image, options);
       EXPECT_EQ(info_of(bytes).parts[0].type, each.type);
       EXPECT_EQ(info_of(bytes).colour, each.colour);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <exception>
+#include <optional>
 
 #include "welkin/base/error.h"
 #include "welkin/io/decode_pixels.h"
@@ -63,6 +64,9 @@ struct Samples {
   std::vector<std::string> names;
   std::size_t colours = 1;
   bool custom_names = false;
+  bool alpha = false;  ///< A stands behind the colours that it belongs to
+
+  int alpha_channel() const { return order[colours]; }
 };
 
 Samples arrange(const std::vector<std::string>& channels) {
@@ -83,7 +87,7 @@ Samples arrange(const std::vector<std::string>& channels) {
   } else {
     take("Y");
   }
-  if (!samples.order.empty()) take("A");
+  if (!samples.order.empty()) samples.alpha = take("A");
   for (const std::string& name : channels) {
     if (std::find(samples.names.begin(), samples.names.end(), name) != samples.names.end()) continue;
     samples.custom_names = samples.custom_names || channels.size() > 1;
@@ -151,9 +155,7 @@ class Writer {
 
   /// Colours in memory are multiplied by alpha, and linear. They are stored so where they stay linear; where
   /// they are encoded, programs expect whole ones.
-  std::uint16_t alpha_tag() const {
-    return colour_ == Colour::srgb ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_ASSOCALPHA;
-  }
+  bool stores_straight_alpha() const { return colour_ == Colour::srgb; }
 
   void set_tags(const WritePart& part, const Samples& samples) {
     const bool floats = type_ == PixelType::half || type_ == PixelType::float32;
@@ -172,7 +174,9 @@ class Writer {
     }
     std::vector<std::uint16_t> extra;
     for (std::size_t k = samples.colours; k < samples.names.size(); ++k) {
-      extra.push_back(samples.names[k] == "A" ? alpha_tag() : EXTRASAMPLE_UNSPECIFIED);
+      const bool alpha = samples.alpha && k == samples.colours;
+      const auto kind = stores_straight_alpha() ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_ASSOCALPHA;
+      extra.push_back(static_cast<std::uint16_t>(alpha ? kind : EXTRASAMPLE_UNSPECIFIED));
     }
     if (!extra.empty()) set(TIFFTAG_EXTRASAMPLES, static_cast<int>(extra.size()), extra.data());
     if (!part.name.empty()) set(TIFFTAG_PAGENAME, part.name.c_str());
@@ -191,12 +195,9 @@ class Writer {
   }
 
   WriteReport write_pixels(ImageView<const float> image, const Samples& samples) {
-    const auto alpha = std::find(samples.names.begin(), samples.names.end(), "A");
-    const bool straight = alpha != samples.names.end() && alpha_tag() == EXTRASAMPLE_UNASSALPHA;
-    const PixelEncoder pixels(
-        type_, samples.order, srgb_channels(samples.names, colour_),
-        straight ? std::optional(samples.order[static_cast<std::size_t>(alpha - samples.names.begin())])
-                 : std::nullopt);
+    const bool divides = samples.alpha && stores_straight_alpha();
+    const PixelEncoder pixels(type_, samples.order, srgb_channels(samples.names, colour_),
+                              divides ? std::optional(samples.alpha_channel()) : std::nullopt);
     const std::size_t stride = static_cast<std::size_t>(image.width) * pixels.pixel_bytes();
     constexpr std::size_t kStripBytes = std::size_t{1} << 18;
     const int rows_of_strip = static_cast<int>(
