@@ -236,7 +236,11 @@ TEST(Ktx2Kinds, SwizzleIsObeyed) {
   expect_values(swizzled(16, two, "rrrg"), {"Y", "A"}, {10 / n, 20 / n});
   expect_values(swizzled(16, two, "rgb1"), kRg, {10 / n, 20 / n});
   expect_values(swizzled(16, two, "g1ra"), kRgb, {20 / n, 1, 10 / n});
-  EXPECT_EQ(declared_of(swizzled(16, two, "rrrg")).alpha, AlphaKind::straight);
+  const Bytes straight = row(16, two, [](OtherFile& file) {
+    file.keys = key("KTXswizzle", std::string("rrrg") + '\0');
+    file.flags = 0;
+  });
+  EXPECT_EQ(declared_of(straight).alpha, AlphaKind::straight);
   // sRGB says how values are stored, and stays with them.
   const Bytes srgb = swizzled(43, four, "a001");
   EXPECT_EQ(decoded(srgb).at(0, 0)[0], 40 / 255.0f);

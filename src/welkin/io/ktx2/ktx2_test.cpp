@@ -49,7 +49,8 @@ TEST(Ktx2, KeepsEveryPictureOfEveryKind) {
           EXPECT_EQ(info.layers, kind.layers == 1 ? 0 : kind.layers);
           EXPECT_EQ(info.faces, kind.faces);
           EXPECT_EQ(info.colour, Colour::linear);
-          EXPECT_TRUE(info.notes.empty());
+          // Without alpha of its own a file says that alpha, which is 1, is straight.
+          if (packed || channels % 2 == 0) EXPECT_TRUE(info.notes.empty());
           ASSERT_EQ(info.parts.size(), texture.parts().size());
           for (std::size_t i = 0; i < info.parts.size(); ++i) {
             const PartInfo& part = info.parts[i];

@@ -70,7 +70,8 @@ struct OtherFile {
   std::uint32_t format = 9, type_size = 1;
   std::size_t texel_bytes = 1;
   std::uint32_t width = 1, height = 1, depth = 0, layers = 0, faces = 1, levels = 1, scheme = 0;
-  std::uint32_t transfer = 1, primaries = 1, model = 1, flags = 0;
+  std::uint32_t transfer = 1, primaries = 1, model = 1;
+  std::uint32_t flags = 1;  ///< alpha is multiplied in, so texels are read as they are
   Bytes keys = {};
   std::uint64_t unpacked = 0;  ///< 0: as many bytes as are stored
 };
