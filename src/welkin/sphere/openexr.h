@@ -8,8 +8,7 @@ namespace welkin::sphere {
 /// A parameterization whose outermost texel centres, not their outer edges, lie on the edges of its charts,
 /// as the OpenEXR `envmap` attribute declares (ImfEnvmap.h): the first and last column of such a lat-long
 /// show the same meridian, its first and last row the poles. How far the edges are in depends on the size, so
-/// that is a parameter. The outer halves of the outermost texels are not valid. A single texel lies in the
-/// middle and is valid from edge to edge.
+/// that is a parameter. The outer halves of the outermost texels are not valid.
 template <class P>
 struct EdgeCentred {
   static constexpr int kCharts = P::kCharts;
@@ -19,13 +18,13 @@ struct EdgeCentred {
 
   template <class Visitor>
   void visit_parameters(Visitor&& visit) {
-    visit("width", width, 1.0, 1048576.0, "texels across a chart");
-    visit("height", height, 1.0, 1048576.0, "texels down a chart");
+    visit("width", width, 2.0, 1048576.0, "texels across a chart");
+    visit("height", height, 2.0, 1048576.0, "texels down a chart");
   }
   template <class Visitor>
   void visit_parameters(Visitor&& visit) const {
-    visit("width", width, 1.0, 1048576.0, "texels across a chart");
-    visit("height", height, 1.0, 1048576.0, "texels down a chart");
+    visit("width", width, 2.0, 1048576.0, "texels across a chart");
+    visit("height", height, 2.0, 1048576.0, "texels down a chart");
   }
   void update() {}
 
@@ -43,7 +42,7 @@ struct EdgeCentred {
   }
   template <class T>
   T solid_angle_density(int chart, T u, T v) const {
-    return constant<T>(stretch(width) * stretch(height)) *
+    return constant<T>(width / (width - 1) * (height / (height - 1))) *
            inner.solid_angle_density(chart, inward(u, width), inward(v, height));
   }
   template <class T>
@@ -60,14 +59,12 @@ struct EdgeCentred {
  private:
   template <class T>
   static T inward(const T& u, double size) {
-    return constant<T>(stretch(size)) * u - constant<T>(0.5 * (stretch(size) - 1));
+    return constant<T>(size / (size - 1)) * u - constant<T>(0.5 / (size - 1));
   }
   template <class T>
   static T outward(const T& u, double size) {
-    return constant<T>(1 / stretch(size)) * u + constant<T>(0.5 * (1 - 1 / stretch(size)));
+    return constant<T>((size - 1) / size) * u + constant<T>(0.5 / size);
   }
-  /// From texel centre to texel centre, as a share of what lies between the edges.
-  static double stretch(double size) { return size > 1 ? size / (size - 1) : 1; }
 };
 
 /// The lat-long of EXR files with `envmap = latlong`.
