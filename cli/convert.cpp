@@ -75,12 +75,6 @@ void Convert::run() const {
   }
 
   const Matrix3 orientation = orientation_of(shape->parameterization, info);
-  if (keeps_orientation(info) && !io::capabilities_for(out).attributes) {
-    print_message(
-        fmt::format("welkin: {}: is turned as the input is, which the file cannot say; --to latlong makes a "
-                    "map that isn't\n",
-                    out));
-  }
   Chain chain;
   chain.notes = levels == 1 ? info.notes.of_level(first) : info.notes;
   ChartSize finest;
@@ -91,8 +85,9 @@ void Convert::run() const {
   options.monitor = progress_monitor("convert");
   for (int level = 0; level < levels; ++level) {
     if (remade_from) {
-      chain.levels.push_back(
-          converted(*remade_from, shape->parameterization, chain_size(finest, level), of_means(options)));
+      chain.levels.push_back(converted(*remade_from,
+                                       {shape->parameterization, chain_size(finest, level), orientation},
+                                       of_means(options)));
       continue;
     }
     if (levels > 1) reader.set_level(level);
@@ -110,6 +105,12 @@ void Convert::run() const {
       levels = written.count;
       chain.notes.roughness.resize(std::min(chain.notes.roughness.size(), static_cast<std::size_t>(levels)));
       check_output_levels(out, *shape, finest, levels, write);
+      if (keeps_orientation(info) && !io::capabilities_for(out).attributes) {
+        print_message(fmt::format(
+            "welkin: {}: is turned as the input is, which the file cannot say; --to latlong turns it to the "
+            "native world\n",
+            out));
+      }
       remade = written.remade;
     }
     fit_channels_to(source, out, write_options, level > 0);
