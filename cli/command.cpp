@@ -263,7 +263,7 @@ void check_output(const std::string& path, const MapShape& shape, const WriteFla
   try {
     io::capabilities_for(path);
   } catch (const Error& error) {
-    throw UsageError(path + ": " + error.what());
+    throw UsageError(error.what());
   }
   try {
     check_face_pattern(path, layout);

@@ -48,8 +48,8 @@ matches '"format": "png"' info picture.exr --header --json
 
 # Formats that are only read are refused as outputs, and listed as such.
 for extension in jxl avif heif heic; do
-  refuses 2 ": copy.$extension: .* is only read here, not written \(can be written: exr, hdr, ktx2" convert map.exr "copy.$extension"
-  refuses 2 ": copy.$extension: .* is only read here" synth axes "copy.$extension"
+  refuses 2 "copy.$extension: .* is only read here, not written \(can be written: exr, hdr, ktx2" convert map.exr "copy.$extension"
+  refuses 2 "copy.$extension: .* is only read here" synth axes "copy.$extension"
   matches "^$extension  read only$" list formats
 done
 
