@@ -41,7 +41,7 @@ install(FILES ${PROJECT_BINARY_DIR}/welkin-config.cmake ${PROJECT_BINARY_DIR}/we
 install(EXPORT welkin-targets NAMESPACE welkin:: DESTINATION ${package_destination})
 
 # pkg-config. A static library makes its user link what it uses, so `pkg-config --libs` names it without `--static` too.
-set(link_only tbb OpenEXR Imath libpng libjpeg libtiff-4 libwebp libwebpdemux libwebpmux libdeflate libzstd libjxl libjxl_threads libheif lcms2 pugixml zlib)
+set(link_only tbb OpenEXR Imath libpng libjpeg libtiff-4 libwebp libwebpdemux libwebpmux libdeflate libzstd libjxl libheif lcms2 pugixml zlib)
 list(JOIN link_only " " link_only)
 set(pc_requires "")
 set(pc_libs "-L\${libdir} -lwelkin")
