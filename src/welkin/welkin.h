@@ -42,6 +42,7 @@
 #include "welkin/math/vec.h"
 #include "welkin/measure/compare.h"
 #include "welkin/measure/density.h"
+#include "welkin/measure/energy.h"
 #include "welkin/measure/statistics.h"
 #include "welkin/plot/draw_density.h"
 #include "welkin/plot/draw_lobes.h"

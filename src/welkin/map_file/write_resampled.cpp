@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/filter/texel_maker.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map_file/cell_walk.h"
@@ -26,6 +27,7 @@ class CellMaker {
   CellMaker(const Map& source, const MapFrame& frame, const WriteResampledOptions& options)
       : frame_(frame),
         monitor_(options.resample.monitor),
+        made_rows_(options.made),
         maker_(make_texels(source, frame, options.resample)) {
     if (options.factor == 1) return;
     for (const std::string& name : source.channel_names)
@@ -36,6 +38,7 @@ class CellMaker {
     try {
       if (monitor_.cancelled && monitor_.cancelled()) throw Cancelled();
       maker_->make({cell.chart, walk_of(cell, frame_.size).from(0, y)}, rows);
+      if (made_rows_) made_rows_(cell.chart, y, rows);
       if (!factors_.empty()) scale_rows(rows);
       if (monitor_.progress) monitor_.progress(progress(rows));
     } catch (...) {
@@ -73,6 +76,7 @@ class CellMaker {
 
   const MapFrame frame_;
   const Monitor monitor_;
+  const std::function<void(int, int, ImageView<const float>)> made_rows_;
   const std::unique_ptr<TexelMaker> maker_;
   std::vector<float> factors_;  ///< of each channel; none for 1
   std::atomic<std::uint64_t> made_{0};
@@ -89,6 +93,12 @@ io::WriteReport write_by_map(const std::filesystem::path& path, const Map& sourc
   ResampleOptions resampling = options.resample;
   resampling.borders = write.border > 0;
   resample(source, target, resampling);
+  if (options.made) {
+    parallel_for(target.charts() * target.height(), [&](int i) {
+      const int chart = i / target.height(), y = i % target.height();
+      options.made(chart, y, target.level.chart(chart).part(0, y, target.width(), 1));
+    });
+  }
   if (options.factor != 1) scale(target, options.factor);
   return write_map(path, target, layout, write);
 }
@@ -106,7 +116,8 @@ io::WriteReport write_resampled(const std::filesystem::path& path, const Map& so
   // Filter::automatic makes texels as their chart lies; turning them band by band takes longer than a map.
   const bool turned = std::any_of(placed.cells.begin(), placed.cells.end(),
                                   [&](const LayoutCell& cell) { return !walk_of(cell, size).as_it_is(); });
-  const bool by_map = write.border > 0 || (turned && options.resample.filter == Filter::automatic);
+  const bool by_map =
+      write.border > 0 || (turned && (options.made || options.resample.filter == Filter::automatic));
   if (by_map) return write_by_map(path, source, frame, shape.layout, write, options);
   CellMaker maker(source, frame, options);
   const WrittenLevel level(

@@ -11,6 +11,7 @@
 #include "welkin/image/color_ramp.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/row_bands.h"
+#include "welkin/measure/common_channels.h"
 
 namespace welkin {
 namespace {
@@ -69,34 +70,6 @@ struct Sums {
   }
 };
 
-struct ChannelPair {
-  std::string name;
-  int a, b;
-  bool counts;  ///< in the measures of all channels
-};
-
-std::vector<ChannelPair> common_channels(const Map& a, const Map& b) {
-  std::vector<ChannelPair> pairs;
-  for (int i = 0; i < a.channels(); ++i) {
-    const std::string& name = a.channel_names[static_cast<std::size_t>(i)];
-    const auto at = std::find(b.channel_names.begin(), b.channel_names.end(), name);
-    if (at != b.channel_names.end()) {
-      pairs.push_back({name, i, static_cast<int>(at - b.channel_names.begin()), name != "A"});
-    }
-  }
-  if (pairs.empty() && a.channels() == b.channels()) {
-    for (int i = 0; i < a.channels(); ++i) {
-      pairs.push_back({a.channel_names[static_cast<std::size_t>(i)], i, i, true});
-    }
-  }
-  if (pairs.empty())
-    throw Error(ErrorKind::mismatch, "the maps have no channels in common, and cannot be compared");
-  if (std::none_of(pairs.begin(), pairs.end(), [](const ChannelPair& pair) { return pair.counts; })) {
-    for (ChannelPair& pair : pairs) pair.counts = true;
-  }
-  return pairs;
-}
-
 double ratio(double a, double b) {
   return a == 0 ? 0 : b > 0 ? a / b : kInfinity;
 }
@@ -105,7 +78,9 @@ class Comparer {
  public:
   Comparer(const Map& a, const Map& b, const CompareOptions& options)
       : options_(options),
-        pairs_(common_channels(a, b)),
+        a_(a),
+        b_(b),
+        pairs_(common_channels(a.channel_names, b.channel_names)),
         texel_by_texel_(a.parameterization == b.parameterization && a.width() == b.width() &&
                         a.height() == b.height() && a.orientation == b.orientation),
         grid_is_a_(texels_of(a) >= texels_of(b)),
@@ -138,7 +113,9 @@ class Comparer {
     for (std::size_t c = 0; c < pairs_.size(); ++c) sums.channels[c].relative = relative.channels[c].relative;
     sums.relative = relative.relative;
     if (error) paint(*error, *heat);
-    return conclude(sums);
+    Comparison result = conclude(sums);
+    add_energy(result);
+    return result;
   }
 
  private:
@@ -344,7 +321,27 @@ class Comparer {
     return result;
   }
 
+  /// Energy is no matter of interpolation: each map has its own.
+  void add_energy(Comparison& result) const {
+    EnergyOptions options;
+    options.lights = options_.lights;
+    options.monitor = without_progress(options_.monitor);
+    result.energy = compare_energy(a_, b_, options);
+    const EnergyChange& whole = result.energy.whole;
+    double before = 0, after = 0;
+    std::size_t counted = 0;
+    for (std::size_t c = 0; c < pairs_.size(); ++c) {
+      if (!pairs_[c].counts) continue;
+      result.channels[c].energy_ratio = whole.ratios[counted];
+      before += whole.before.channels[counted];
+      after += whole.after.channels[counted++];
+    }
+    result.all.energy_ratio = before == after ? 1 : after / before;
+  }
+
   const CompareOptions& options_;
+  const Map& a_;
+  const Map& b_;
   const std::vector<ChannelPair> pairs_;
   const bool texel_by_texel_;
   const bool grid_is_a_;

@@ -8,6 +8,7 @@
 #include "welkin/base/monitor.h"
 #include "welkin/filter/resample.h"
 #include "welkin/map/map.h"
+#include "welkin/measure/energy.h"
 
 /// @file
 /// The error between two maps.
@@ -22,15 +23,17 @@ struct CompareOptions {
   double peak = 0;
   /// Width of the heat map, texels, 2 … 32768; it is half as high.
   int heat_width = 1024;
+  int lights = 3;        ///< whose energy is compared, at most
   Monitor monitor = {};  ///< progress and cancelling
 };
 
 /// The error of b against the reference a, in one channel or in all; every mean is weighted by solid angle.
 struct ErrorMeasures {
-  std::string name;                           ///< the channel's
-  double mean_a = 0;                          ///< of the reference
-  double mean_b = 0;                          ///< of what is compared with it
-  double energy_ratio = 1;                    ///< mean_b / mean_a; 1 when both are 0
+  std::string name;   ///< the channel's
+  double mean_a = 0;  ///< of the reference
+  double mean_b = 0;  ///< of what is compared with it
+  /// ∫ b dω / ∫ a dω over what both show, each by its own texels: EnergyChange. Of A mean_b / mean_a.
+  double energy_ratio = 1;
   double rms_a = 0;                           ///< root of the mean of a²
   double rmse = 0;                            ///< root of the mean of (b − a)²
   double relative_rmse = 0;                   ///< rmse / rms_a; 0 when rmse is 0
@@ -58,6 +61,7 @@ struct Comparison {
   std::uint64_t texels = 0;     ///< compared
   double solid_angle = 0;       ///< compared, sr
   std::uint64_t skipped = 0;    ///< not compared because a or b is NaN or infinite there
+  EnergyComparison energy;      ///< of the whole, and of a's brightest lights
 };
 
 /// Compares b with the reference a, over the sphere. Goes through the texels of the map that has more of

@@ -24,6 +24,11 @@ class TexelLuminance {
     return g_ < 0 ? texel[r_] : 0.2126f * texel[r_] + 0.7152f * texel[g_] + 0.0722f * texel[b_];
   }
 
+  /// Of sums over texels, one for each channel: luminance is linear.
+  double of_sums(const double* sums) const {
+    return g_ < 0 ? sums[r_] : 0.2126 * sums[r_] + 0.7152 * sums[g_] + 0.0722 * sums[b_];
+  }
+
  private:
   static int find(const std::vector<std::string>& names, std::string_view name) {
     const auto at = std::find(names.begin(), names.end(), name);
