@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -9,8 +10,10 @@
 #include "bake_source.h"
 #include "command.h"
 #include "progress.h"
+#include "sanitize_flags.h"
 #include "welkin/base/number_text.h"
 #include "welkin/map/adjust.h"
+#include "welkin/prefilter/source_faults.h"
 #include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
@@ -23,7 +26,8 @@ struct Bake {
   ReadFlags read;
   WriteFlags write;
   double exposure = 0;
-  bool sanitize = false, json = false;
+  SanitizeFlags repair;
+  bool json = false;
 
   void run();
   PrefilterOptions parse_options() const;
@@ -97,9 +101,13 @@ void Bake::run() {
         "--convention", [&] { return orientation_for(convention_from_name(convention), options.target); });
   }
 
+  SanitizeOptions repairs = repair.parse(std::min(
+      largest_value(out, write_options.image.type, std::exp2(exposure)), static_cast<double>(kMaxRadiance)));
+  repairs.negative_infinite = holds_negative(out, write_options.image.type);
+
   BakeReport report{in, out, &made, bake_notes(options), {}, {}};
   Clock clock;
-  Map source = read_bake_source(in, read, sanitize ? Faults::repaired : Faults::refused);
+  Map source = read_bake_source(in, read, repair, repairs);
   turn_world(source, turn);
   if (!options.keep_alpha && source.channel_names == default_channel_names(4)) source = without_alpha(source);
   fit_channels_to(source, out, write_options);
@@ -173,8 +181,7 @@ void add_bake(CLI::App& app) {
   command->add_option("--convention,--to-convention", bake->convention,
                       "World of the output: three.js, blender… (`welkin list conventions`)");
   command->add_option("--exposure", bake->exposure, "Brighten by this many stops")->check(finite_number());
-  command->add_flag("--sanitize", bake->sanitize,
-                    "Replace NaN and infinite values by their neighbours' mean");
+  bake->repair.add(*command);
   command->add_flag("--json", bake->json, "Machine-readable, on standard output");
   bake->read.add(*command);
   bake->read.add_level(*command, "Level of the input to take. Default: the finest");

@@ -14,7 +14,7 @@ void check_source(const Map& source, const std::string& in) {
   if (faults.not_finite > 0) {
     throw Error(
         ErrorKind::bad_value, in,
-        fmt::format("{} texels have NaN or infinite values; --sanitize replaces them", faults.not_finite));
+        fmt::format("{} texels have NaN or infinite values; --sanitize repairs them", faults.not_finite));
   }
   if (faults.excessive > 0) {
     throw Error(ErrorKind::bad_value, in,
@@ -34,13 +34,11 @@ void check_source(const Map& source, const std::string& in) {
 
 }  // namespace
 
-Map read_bake_source(const std::string& in, const ReadFlags& flags, Faults faults) {
+Map read_bake_source(const std::string& in, const ReadFlags& flags, const SanitizeFlags& repair,
+                     const SanitizeOptions& repairs) {
   MapReader reader = flags.open(in);
   Map source = reader.read();
-  if (faults == Faults::repaired) {
-    const std::uint64_t repaired = sanitize(source);
-    print_message(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
-  }
+  if (repair.any()) repair.print(in, sanitize(source, repairs), repairs);
   check_source(source, in);
   return source;
 }

@@ -4,15 +4,27 @@
 #include <memory>
 #include <optional>
 
+#include <nlohmann/json.hpp>
+
 #include "command.h"
+#include "energy_report.h"
 #include "progress.h"
+#include "sanitize_flags.h"
 #include "welkin/filter/resample.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map_file/write_resampled.h"
+#include "welkin/measure/energy.h"
 #include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
 namespace {
+
+using nlohmann::ordered_json;
+
+/// A filter that changed the energy by more is told.
+constexpr double kToldChange = 0.01;
+/// `--verify` fails where the energy of the whole changed by more.
+constexpr double kVerifiedChange = 1e-3;
 
 /// For levels that are means of a finer one.
 ResampleOptions of_means(ResampleOptions options) {
@@ -24,8 +36,9 @@ struct Convert {
   std::string in, out, to, size, filter = "auto", rotation, convention, fill;
   ReadFlags read;
   WriteFlags write;
+  SanitizeFlags repair;
   double exposure = 0, scale = 1;
-  bool allow_ringing = false, sanitize = false;
+  bool allow_ringing = false, verify = false, json = false;
 
   void run() const;
   /// How many of the input's levels are converted.
@@ -44,12 +57,24 @@ struct Convert {
   Matrix3 orientation_of(const sphere::AnyParameterization& parameterization, const MapFileInfo& info) const;
   float factor() const { return static_cast<float>(scale * std::exp2(exposure)); }
   Map converted(const Map& source, const MapFrame& frame, const ResampleOptions& options) const;
+  /// Warns of an interpolating filter that changed the energy.
+  void tell_change(const EnergyComparison& energy) const;
+  /// What was written.
+  struct Written {
+    MapShape shape;
+    Matrix3 orientation, rotation;
+    io::WriteReport report;
+  };
+  /// Reads it and reports the energy of each level and its source. Throws where it isn't kept.
+  void verify_energy(std::vector<Map>& sources, const Written& what) const;
 };
 
 void Convert::run() const {
   // Everything that can be wrong with the request, before any file is touched.
   read.parse();
   const WriteMapOptions write_options = write.parse();
+  repair.parse();
+  if (json && !verify) throw UsageError("--json: is the report of --verify, which is not asked for");
   ResampleOptions options;
   options.filter = parse_option("--filter", [&] { return filter_from_name(filter); });
   options.allow_ringing = allow_ringing;
@@ -79,15 +104,22 @@ void Convert::run() const {
   chain.notes = levels == 1 ? info.notes.of_level(first) : info.notes;
   ChartSize finest;
   io::WriteReport report;
-  std::uint64_t repaired = 0;
+  SanitizeReport repaired;
+  SanitizeOptions repairs;
+  if (repair.any())
+    repairs = repair.parse(largest_value(out, write_options.image.type, static_cast<double>(factor())));
+  repairs.negative_infinite = holds_negative(out, write_options.image.type);
+  const bool interpolates = options.filter != Filter::automatic;
+  std::vector<Map> sources;
   bool remade = false;
   std::optional<Map> remade_from;
   options.monitor = progress_monitor("convert");
   for (int level = 0; level < levels; ++level) {
     if (remade_from) {
-      chain.levels.push_back(converted(*remade_from,
-                                       {shape->parameterization, chain_size(finest, level), orientation},
-                                       of_means(options)));
+      Map target = converted(*remade_from, {shape->parameterization, chain_size(finest, level), orientation},
+                             of_means(options));
+      if (factor() != 1) welkin::scale(target, factor());
+      chain.levels.push_back(std::move(target));
       continue;
     }
     if (levels > 1) reader.set_level(level);
@@ -114,24 +146,93 @@ void Convert::run() const {
       remade = written.remade;
     }
     fit_channels_to(source, out, write_options, level > 0);
-    if (sanitize) {
-      repaired += welkin::sanitize(source);
+    if (repair.any()) {
+      const SanitizeReport done = sanitize(source, repairs);
+      repaired.filled += done.filled;
+      repaired.infinite += done.infinite;
+      repaired.clamped += done.clamped;
     }
+    const EnergyOptions energy_options{.rotation = options.rotation,
+                                       .monitor = without_progress(options.monitor)};
     if (levels == 1) {
       // Made when it is written.
-      report = write_resampled(out, source, *shape, finest,
-                               {options, orientation, factor(), chain.notes, write_options});
-      break;
+      WriteResampledOptions how{options, orientation, factor(), chain.notes, write_options};
+      std::optional<EnergyMeter> meter;
+      if (interpolates) {
+        meter.emplace(source, MapFrame(shape->parameterization, finest, orientation), source.channel_names,
+                      energy_options);
+        how.made = [&meter](int chart, int y, ImageView<const float> rows) { meter->add(chart, y, rows); };
+      }
+      report = write_resampled(out, source, *shape, finest, how);
+      if (meter) tell_change(meter->comparison());
+    } else {
+      Map target =
+          converted(source, {shape->parameterization, chain_size(finest, level), orientation}, options);
+      if (interpolates) tell_change(compare_energy(source, target, energy_options));
+      if (factor() != 1) welkin::scale(target, factor());
+      chain.levels.push_back(std::move(target));
     }
-    chain.levels.push_back(
-        converted(source, {shape->parameterization, chain_size(finest, level), orientation}, options));
+    if (verify) sources.push_back(remade ? source.clone() : std::move(source));
     if (remade) remade_from = std::move(source);
   }
   end_progress();
-  if (sanitize)
-    print_message(fmt::format("welkin: {}: {} texels with NaN or infinite values repaired\n", in, repaired));
+  if (repair.any()) repair.print(in, repaired, repairs);
   if (levels > 1) report = write_chain(out, chain, shape->layout, write_options);
   report_losses(out, report);
+  if (verify) verify_energy(sources, {*shape, orientation, options.rotation, report});
+}
+
+void Convert::tell_change(const EnergyComparison& energy) const {
+  const double whole = energy.change_of_whole(), lights = energy.change_of_lights();
+  if (!(std::max(whole, lights) > kToldChange)) return;
+  end_progress();
+  std::string text =
+      fmt::format("{} changed the energy: of the whole by {}", filter, change_text(energy.whole.ratio));
+  for (const LightChange& each : energy.lights) {
+    if (!(std::fabs(each.change.ratio - 1) > kToldChange)) continue;
+    text += fmt::format(", of the light along {} by {}", direction_text(each.light.direction),
+                        change_text(each.change.ratio));
+  }
+  print_message(fmt::format("welkin: {}: {}; --filter auto keeps it\n", out, text));
+}
+
+void Convert::verify_energy(std::vector<Map>& sources, const Written& what) const {
+  ReadMapOptions read_options;
+  read_options.shape = what.shape.text();
+  read_options.faces = write.faces;
+  read_options.image.colour = write.parse().image.colour;
+  MapReader written(out, read_options);
+  if (written.info().border != write.border) {
+    // Where the file doesn't say so.
+    read_options.border = write.border - written.info().border;
+    written = MapReader(out, read_options);
+  }
+  written.set_orientation(what.orientation);
+  ordered_json all{{"in", in}, {"out", out}};
+  const std::uint64_t clipped = what.report.above + what.report.below + what.report.not_finite;
+  all["clipped_values"] = clipped;
+  double changed = 0;
+  for (std::size_t level = 0; level < sources.size(); ++level) {
+    if (factor() != 1) welkin::scale(sources[level], factor());
+    const EnergyComparison energy = compare_energy(
+        sources[level], sources.size() == 1 ? written.read() : written.read(static_cast<int>(level)),
+        {.rotation = what.rotation});
+    changed = std::max(changed, energy.change_of_whole());
+    if (json) {
+      if (sources.size() == 1) all["energy"] = json_of(energy);
+      if (sources.size() > 1) all["levels"].push_back({{"level", level}, {"energy", json_of(energy)}});
+    } else {
+      if (sources.size() > 1) fmt::print("level {}\n", level);
+      print_energy(energy);
+    }
+  }
+  if (json) fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  if (!json) fmt::print("{} values clipped\n", clipped);
+  if (changed <= kVerifiedChange) return;
+  throw Error(ErrorKind::mismatch, out,
+              fmt::format("the energy differs from that of {} by {:.3g} %, more than {:g} %{}", in,
+                          100 * changed, 100 * kVerifiedChange,
+                          clipped > 0 ? fmt::format("; {} values were clipped", clipped) : std::string()));
 }
 
 int Convert::levels_for(const MapFileInfo& info) const {
@@ -191,7 +292,6 @@ Map Convert::converted(const Map& source, const MapFrame& frame, const ResampleO
   target.channel_names = source.channel_names;
   target.orientation = frame.orientation;
   resample(source, target, options);
-  if (factor() != 1) welkin::scale(target, factor());
   return target;
 }
 
@@ -225,8 +325,11 @@ void add_convert(CLI::App& app) {
       "output's discs and triangles. Default: 0");
   command->add_flag("--allow-ringing", convert->allow_ringing,
                     "Leave the overshoot of bicubic and lanczos beside bright lights unclamped");
-  command->add_flag("--sanitize", convert->sanitize,
-                    "Replace NaN and infinite values by their neighbours' mean");
+  convert->repair.add(*command);
+  command->add_flag("--verify", convert->verify,
+                    "Read what was written, and print the energy before and after, of the whole and of the "
+                    "brightest lights; exit with status 1 when that of the whole changed by over 0.1 %");
+  command->add_flag("--json", convert->json, "With --verify: machine-readable, on standard output");
   convert->read.add(*command);
   convert->read.add_level(*command,
                           "Level of the input to take. Default: all, where the output holds levels and they "

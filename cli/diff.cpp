@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "energy_report.h"
 #include "welkin/base/error.h"
 #include "welkin/measure/compare.h"
 
@@ -73,6 +74,7 @@ void add_json(ordered_json& report, const Comparison& result) {
   report["texels"] = result.texels;
   report["solid_angle"] = result.solid_angle;
   report["skipped"] = result.skipped;
+  report["energy"] = cli::json_of(result.energy);
 }
 
 void Diff::check_error(const Comparison& result, const std::string& where) const {
@@ -98,6 +100,7 @@ void Diff::compare_maps(const Map& reference, const Map& other, const CompareOpt
     for (const ErrorMeasures& channel : result.channels) print(channel);
     print(result.all);
     print_footer(result);
+    print_energy(result.energy);
   }
   check_error(result, "");
 }

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "energy_report.h"
 #include "welkin/map_file/safety_border.h"
+#include "welkin/measure/energy.h"
 #include "welkin/measure/statistics.h"
 
 namespace welkin::cli {
@@ -249,6 +251,7 @@ void print_statistics(const MapStatistics& s) {
 
 struct Measures {
   MapStatistics statistics;   ///< of the level asked for
+  MapEnergy energy;           ///< the same level's
   std::vector<double> means;  ///< luminance of every level, where none is asked for
 };
 
@@ -256,13 +259,18 @@ Measures measure_levels(MapReader& reader, std::optional<int> level) {
   Measures measures;
   const Monitor monitor = progress_monitor("info");
   if (level) {
-    measures.statistics = measure(reader.read(), monitor);
+    const Map map = reader.read();
+    measures.statistics = measure(map, monitor);
+    measures.energy = measure_energy(map, {.monitor = without_progress(monitor)});
   } else {
     for (int each = 0; each < levels_of(reader.info()); ++each) {
       reader.set_level(each);
-      const MapStatistics statistics = measure(reader.read(), monitor);
+      const Map map = reader.read();
+      const MapStatistics statistics = measure(map, monitor);
       measures.means.push_back(statistics.luminance.mean);
-      if (each == 0) measures.statistics = statistics;
+      if (each > 0) continue;
+      measures.statistics = statistics;
+      measures.energy = measure_energy(map, {.monitor = without_progress(monitor)});
     }
     reader.set_level(0);
   }
@@ -290,8 +298,12 @@ void Info::run() const {
       report["levels"][level]["mean_luminance"] = measures.means[level];
     }
     if (measured) {
-      if (!json) print_statistics(measures.statistics);
+      if (!json) {
+        print_statistics(measures.statistics);
+        print_energy(measures.energy);
+      }
       report["statistics"] = statistics_of(measures.statistics);
+      report["statistics"]["energy"] = json_of(measures.energy);
     }
     all.push_back(std::move(report));
   }

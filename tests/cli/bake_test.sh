@@ -233,8 +233,8 @@ grep -q 'no.ktx2: [0-9]* values were negative, and are 0 in the file$' "$work/me
     esac
   done
 } >sick.pfm
-refuses 1 'sick.pfm: 2 texels have NaN or infinite values; --sanitize replaces them$' bake sick.pfm no.ktx2
-says 'sick.pfm: 2 texels with NaN or infinite values repaired$' bake sick.pfm repaired.ktx2 --size 8 --sanitize
+refuses 1 'sick.pfm: 2 texels have NaN or infinite values; --sanitize repairs them$' bake sick.pfm no.ktx2
+says 'sick.pfm: 2 texels with NaN or infinite values filled$' bake sick.pfm repaired.ktx2 --size 8 --sanitize
 near "repaired" "$(sample_along repaired.ktx2 1,2,3 --level 1)" "1 1 1" 1e-5
 # Alpha is not light: it is left out, unless it's named.
 bake card.exr rgb.ktx2 --size 16

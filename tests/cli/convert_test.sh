@@ -95,7 +95,9 @@ near "texels of a cube" "$("$welkin" info cube.exr --json | number texels)" $((1
 must synth sun sun.exr --size 256 --background 0 --angle 3
 for filter in auto nearest bilinear bicubic lanczos; do
   for size in 16 150; do
-    must convert sun.exr dim.exr --to cube --size $size --filter $filter
+    checks=$((checks + 1))
+    run convert sun.exr dim.exr --to cube --size $size --filter $filter
+    ((status == 0)) || fail "--filter $filter: status $status: $(cat "$work/messages")"
     "$welkin" info dim.exr --json >"$work/json"
     checks=$((checks + 1))
     ! grep -qE '"min": -' "$work/json" || fail "--filter $filter at $size makes negative light"
@@ -134,9 +136,56 @@ near "NaN in R" "$(number nan <"$work/json")" 1 0
 near "infinities" "$(grep -oE '"infinite": [0-9]+' "$work/json" | grep -oE '[0-9]+' | tr '\n' ' ')" "1 1 0" 0
 checks=$((checks + 1))
 run convert wild.pfm repaired.exr --sanitize
-((status == 0)) && grep -qE '^welkin: wild.pfm: 2 texels with NaN or infinite values repaired$' "$work/messages" || fail "--sanitize: $(cat "$work/messages")"
+((status == 0)) && grep -qE '^welkin: wild.pfm: 2 texels with NaN or infinite values filled$' "$work/messages" || fail "--sanitize: $(cat "$work/messages")"
 must synth constant white.exr --size 8
 same white.exr repaired.exr 1e-6
+# Infinite ones as the largest value of the output's type, or as a value; fireflies clamped.
+says() {
+  local pattern=$1
+  shift
+  checks=$((checks + 1))
+  run "$@"
+  ((status == 0)) && [[ $(wc -l <"$work/messages") == 1 ]] && grep -qE -- "$pattern" "$work/messages" ||
+    fail "welkin $*: status $status: $(cat "$work/messages")"
+}
+range() { "$welkin" info "$1" --json | grep -m 2 -oE '"(min|max)": [^,]+' | sed -E 's/.*: //' | tr '\n' ' '; }
+says '^welkin: wild.pfm: 1 texels with NaN values filled, 2 infinite values clamped to 65504$' convert wild.pfm half.exr --type half --sanitize=clamp
+near "clamped to half's largest" "$(range half.exr)" "-65504 1" 0
+says 'clamped to 65504$' convert wild.pfm float.exr --sanitize=clamp
+says 'clamped to 65408$' convert wild.pfm shared.ktx2 --type rgb9e5 --sanitize=clamp
+says 'clamped to 1$' convert wild.pfm wild8.png --sanitize=clamp
+says 'clamped to 32752$' convert wild.pfm half.exr --type half --exposure 1 --sanitize=clamp
+near "clamped before it is exposed" "$(range half.exr)" "-65504 2" 0
+says '2 infinite values clamped to 100$' convert wild.pfm hundred.exr --sanitize=clamp:100
+near "clamped to a value" "$(range hundred.exr)" "-100 1" 0
+says '^welkin: wild.pfm: 1 values clamped to ,100$' convert wild.pfm most.exr --channels G --clamp ,100
+says '2 texels with NaN or infinite values filled, 96 values clamped to 0.25,0.5$' convert wild.pfm both.exr --sanitize --clamp 0.25,0.5
+near "clamped" "$(range both.exr)" "0.5 0.5" 0
+must convert white.exr at-least.exr --size 4
+says '96 values clamped to 2,$' convert white.exr at-least.exr --clamp 2,
+near "clamped from below" "$(range at-least.exr)" "2 2" 0
+refuses 2 "--sanitize: 'mend' is not fill, clamp or clamp:VALUE" convert wild.pfm no.exr --sanitize=mend
+refuses 2 "--sanitize: 'x' is not a number" convert wild.pfm no.exr --sanitize=clamp:x
+refuses 2 '--sanitize: infinite values become a value above 0' convert wild.pfm no.exr --sanitize=clamp:-1
+refuses 2 "--clamp: '5' is not MIN,MAX" convert wild.pfm no.exr --clamp 5
+refuses 2 "--clamp: ',' is not MIN,MAX" convert wild.pfm no.exr --clamp ,
+refuses 2 "--clamp: 'nan' is not a number" convert wild.pfm no.exr --clamp nan,1
+refuses 2 '--clamp: the minimum 2 is above the maximum 1' convert wild.pfm no.exr --clamp 2,1
+# A hole of any size is filled from its rim: a sun of infinity in a sky of ½.
+{
+  printf 'Pf\n128 64\n-1.0\n'
+  for ((y = 0; y < 64; ++y)); do
+    for ((x = 0; x < 128; ++x)); do
+      if (((x - 40) * (x - 40) + (y - 20) * (y - 20) <= 16)); then bits 7f800000; else bits 3f000000; fi
+    done
+  done
+} >hole.pfm
+says '^welkin: hole.pfm: 49 texels with NaN or infinite values filled$' convert hole.pfm filled.exr --sanitize
+near "the sun became the sky" "$(range filled.exr)" "0.5 0.5" 0
+says '49 texels with NaN or infinite values filled$' bake hole.pfm lambert.exr --lobe lambert --to latlong --sanitize
+near "and lights as it" "$(range lambert.exr)" "0.5 0.5" 1e-5
+says '0 texels with NaN values filled, 49 infinite values clamped to 65504$' bake hole.pfm lambert.exr --lobe lambert --to latlong --sanitize=clamp
+
 checks=$((checks + 1))
 run convert wild.pfm wild.png
 ((status == 0)) && grep -qE '^welkin: wild.png: [0-9]+ values were not finite' "$work/messages" || fail "NaN to PNG: $(cat "$work/messages")"

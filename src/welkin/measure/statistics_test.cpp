@@ -1,7 +1,5 @@
 #include "welkin/measure/statistics.h"
 
-#include "welkin/map/adjust.h"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -202,40 +200,6 @@ TEST(Statistics, ThreadsDoNotChangeAnyDigit) {
 TEST(Statistics, CanBeCancelled) {
   const Map map = constant_map("cube", 16, 16, {1});
   EXPECT_THROW(measure(map, {nullptr, [] { return true; }}), Cancelled);
-}
-
-TEST(Sanitize, ReplacesByTheMeanOfNeighboursAsTheyWere) {
-  Map map(AnyParameterization::make("latlong"), 8, 6, 2);
-  const ImageView<float> chart = map.level.chart(0);
-  for (int y = 0; y < 6; ++y) {
-    for (int x = 0; x < 8; ++x) {
-      chart.at(x, y)[0] = static_cast<float>(x);
-      chart.at(x, y)[1] = static_cast<float>(10 * y);
-    }
-  }
-  // A pair one under the other: neither may be filled from the other's replacement.
-  chart.at(3, 2)[0] = kNan;
-  chart.at(3, 3)[0] = kInfinity;
-  chart.at(4, 3)[0] = 100;
-  // A corner, in the other channel.
-  chart.at(0, 0)[1] = -kInfinity;
-  EXPECT_EQ(sanitize(map), 3u);
-  EXPECT_FLOAT_EQ(chart.at(3, 2)[0], (2 + 3 + 4 + 2 + 4 + 2 + 100) / 7.0f);
-  EXPECT_FLOAT_EQ(chart.at(3, 3)[0], (2 + 4 + 2 + 100 + 2 + 3 + 4) / 7.0f);
-  EXPECT_EQ(chart.at(3, 2)[1], 20);
-  EXPECT_FLOAT_EQ(chart.at(0, 0)[1], (0 + 10 + 10) / 3.0f);
-  EXPECT_EQ(sanitize(map), 0u);
-}
-
-TEST(Sanitize, FallsBackWhereNoNeighbourIsFinite) {
-  Map map = constant_map("cube", 4, 4, {kNan, 1});
-  map.level.chart(5).at(0, 0)[0] = 2;
-  EXPECT_EQ(sanitize(map, 7), 6u * 16u - 1);
-  EXPECT_EQ(map.level.chart(0).at(2, 2)[0], 7);
-  EXPECT_EQ(map.level.chart(5).at(1, 1)[0], 2);
-  EXPECT_EQ(map.level.chart(5).at(2, 2)[0], 7);
-  EXPECT_EQ(map.level.chart(4).at(0, 3)[0], 7);  // another chart is no neighbour
-  EXPECT_EQ(map.level.chart(3).at(1, 3)[1], 1);
 }
 
 TEST(RenderSynth, TheSunKeepsItsEnergy) {
