@@ -4,10 +4,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 
 #include "welkin/base/error.h"
 #include "welkin/map/adjust.h"
@@ -215,6 +217,41 @@ TEST_F(WriteResampled, TellsProgressAndIsCancelledWithoutATrace) {
     options.resample.monitor = {[](double) { throw 17; }, nullptr};
     EXPECT_THROW(write_resampled(path, source, shape, {300, 300}, options), int);
     EXPECT_EQ(files(), 0u);
+  }
+}
+
+TEST_F(WriteResampled, TellsEveryRowThatIsMadeBeforeItIsScaled) {
+  const Map source = noise(AnyParameterization::make("latlong"), 96, 48, 3);
+  for (const char* text : {"cube:hstrip", "cube:vcross", "cube:faces", "octahedral", "fisheye-equidistant"}) {
+    for (const Filter filter : {Filter::bilinear, Filter::automatic}) {
+      for (const int border : {0, 2}) {
+        const MapShape shape = parse_map_shape(text);
+        const ChartSize size{50, height_for(shape.parameterization, 50)};
+        WriteResampledOptions options = plain(filter);
+        options.factor = 3;
+        options.write.border = border;
+        Map told(shape.parameterization, size.width, size.height, 3);
+        std::mutex mutex;
+        options.made = [&](int chart, int y, ImageView<const float> rows) {
+          ASSERT_EQ(rows.width, size.width);
+          const std::scoped_lock lock(mutex);
+          for (int i = 0; i < rows.height; ++i)
+            std::copy_n(rows.row(i), 3 * size.width, told.level.chart(chart).row(y + i));
+        };
+        const bool files = shape.layout.kind == LayoutKind::files;
+        write_resampled(folder_ / (files ? "a_%s.exr" : "a.exr"), source, shape, size, options);
+        Map whole(shape.parameterization, size.width, size.height, 3);
+        ResampleOptions resampling = options.resample;
+        resampling.borders = border > 0;
+        resample(source, whole, resampling);
+        for (int chart = 0; chart < whole.charts(); ++chart) {
+          for (int y = 0; y < size.height; ++y) {
+            for (int i = 0; i < 3 * size.width; ++i)
+              ASSERT_EQ(told.level.chart(chart).row(y)[i], whole.level.chart(chart).row(y)[i]) << text;
+          }
+        }
+      }
+    }
   }
 }
 
