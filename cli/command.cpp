@@ -206,15 +206,18 @@ MapReader ReadFlags::open(const std::string& path) const {
 MapReader ReadFlags::open_unknown(const std::string& path) const {
   ReadMapOptions options = parse();
   options.faces.clear();
+  options.join_faces = pixels && faces.empty() && convention.empty();
   MapReader reader(path, options);
   if (reader.info().shape && !convention.empty()) {
     reader.set_orientation(
         orientation_for(convention_from_name(convention), reader.info().shape->parameterization));
   }
+  if (reader.info().shape) {
+    if (!faces.empty()) parse_option("--from-faces", [&] { reader.set_faces(faces); });
+    if (level) parse_option("--level", [&] { reader.set_level(*level); });
+    if (pixels && !options.join_faces) reader.check_faces();
+  }
   if (warn) print_warnings(path, reader.info().image.warnings);
-  if (!reader.info().shape) return reader;
-  if (!faces.empty()) parse_option("--from-faces", [&] { reader.set_faces(faces); });
-  if (level) parse_option("--level", [&] { reader.set_level(*level); });
   return reader;
 }
 

@@ -67,7 +67,8 @@ struct ReadFlags {
   std::string eye, stereo;
   std::optional<int> part;
   std::optional<int> level;
-  bool warn = true;  ///< on stderr of what the files' readers warn of
+  bool pixels = true;  ///< whether opening may read some, to find out how faces join
+  bool warn = true;    ///< on stderr of what the files' readers warn of
 
   void add(CLI::App& command);
   /// `--level`, for commands that read one level of a file with several.

@@ -283,7 +283,9 @@ void Info::run() const {
   ordered_json all = ordered_json::array();
   bool first = true;
   for (const std::string& path : files) {
-    MapReader reader = read.open_unknown(path);
+    ReadFlags flags = read;
+    flags.pixels = !header;
+    MapReader reader = flags.open_unknown(path);
     const MapFileInfo& info = reader.info();
     if (!json) {
       if (!first) fmt::print("\n");

@@ -11,7 +11,8 @@
 namespace welkin::map_file {
 namespace {
 
-/// Texels across a face that stands for it: its outermost texels, those next to them, and others to fill the edge.
+/// Texels across a face that stands for it: its outermost texels, those next to them, and others to fill the
+/// edge.
 constexpr int kSide = 64;
 constexpr int kFaces = 6;
 
@@ -22,7 +23,8 @@ int texel_at(int i, int size) {
   return static_cast<int>((i + 0.5) * size / kSide);
 }
 
-/// log₂ of luminance over the map's mean, so that dark and bright edges count alike; the darkest count for little.
+/// log₂ of luminance over the map's mean, so that dark and bright edges count alike; the darkest count for
+/// little.
 using Face = Image;
 
 double luminance_at(const Map& map, int face, int x, int y) {
@@ -76,7 +78,8 @@ std::vector<EdgeTexel> edge_texels(const sphere::AnyParameterization& p) {
         // Past the edge the face's plane goes on, and the direction is another face's.
         const sphere::ChartPoint<double> other = p.from_sphere(p.to_sphere(face, u, v));
         if (static_cast<int>(other.chart) == face) continue;
-        list.push_back({face, x, y, x - out_x, y - out_y, static_cast<int>(other.chart), place(other.u), place(other.v)});
+        list.push_back({face, x, y, x - out_x, y - out_y, static_cast<int>(other.chart), place(other.u),
+                        place(other.v)});
       }
     }
   }
@@ -121,8 +124,8 @@ std::vector<FaceReading> readings(const sphere::AnyParameterization& p) {
           reading.orientation = orientation_for(convention_from_name(convention), p);
           const std::string rest = all;
           if (!rest.empty() || *top != '\0' || *bottom != '\0')
-            reading.faces = "px" + rest + ",nx" + rest + ",py" + rest + top + ",ny" + rest + bottom + ",pz" + rest +
-                            ",nz" + rest;
+            reading.faces = "px" + rest + ",nx" + rest + ",py" + rest + top + ",ny" + rest + bottom + ",pz" +
+                            rest + ",nz" + rest;
           list.push_back(std::move(reading));
         }
       }
@@ -150,9 +153,11 @@ Joining measure_joining(const Map& map, const Layout& layout) {
   std::vector<Face> pictures;
   for (int face = 0; face < kFaces; ++face) pictures.emplace_back(kSide, kSide, 1);
   for (const LayoutCell& cell : layout.cells)
-    copy_to_cell(cell, charts[static_cast<std::size_t>(cell.chart)].view(), pictures[static_cast<std::size_t>(cell.chart)].view());
+    copy_to_cell(cell, charts[static_cast<std::size_t>(cell.chart)].view(),
+                 pictures[static_cast<std::size_t>(cell.chart)].view());
   const std::vector<Layout> layouts = layouts_of(p);
-  const auto files = std::find_if(layouts.begin(), layouts.end(), [](const Layout& each) { return each.name == "hstrip"; });
+  const auto files =
+      std::find_if(layouts.begin(), layouts.end(), [](const Layout& each) { return each.name == "hstrip"; });
   std::vector<FaceReading> tried = readings(p);
   for (FaceReading& reading : tried) {
     Layout read = layout_for(*files, p, reading.orientation);
@@ -171,7 +176,8 @@ Joining measure_joining(const Map& map, const Layout& layout) {
   constexpr double kAsWell = 1.05, kMuchBetter = 0.5;
   const auto best = std::find_if(tried.begin(), tried.end(),
                                  [&](const auto& each) { return each.step <= kAsWell * least->step; });
-  if (best->step < kMuchBetter * joining.step && is_joined(best->step, joining.inner_step)) joining.better = *best;
+  if (best->step < kMuchBetter * joining.step && is_joined(best->step, joining.inner_step))
+    joining.better = *best;
   return joining;
 }
 

@@ -5,6 +5,7 @@
 #include "welkin/base/error.h"
 #include "welkin/map/borders.h"
 #include "welkin/map_file/eyes.h"
+#include "welkin/map_file/joining.h"
 #include "welkin/map_file/map_file_job.h"
 
 namespace welkin {
@@ -32,33 +33,83 @@ MapReader::MapReader(const fs::path& path, const ReadMapOptions& options)
     : path_(path),
       options_(options),
       reader_(open_first(path, options)),
-      info_(inspect(path, reader_->info(), options)) {}
+      info_(inspect(path, reader_->info(), options)) {
+  if (options.join_faces) join_faces();
+}
 
 MapReader::MapReader(std::span<const std::byte> bytes, const std::string& name, const ReadMapOptions& options)
     : path_(name), options_(options), reader_(io::open(bytes, name, options.image)) {
   require(!is_pattern(path_), "bytes in memory are one file: their name cannot have a %s");
   info_ = inspect(path_, reader_->info(), options);
+  if (options.join_faces) join_faces();
+}
+
+void MapReader::inspect_with(ReadMapOptions options) {
+  info_ = inspect(path_, reader_->info(), options);
+  info_.image.warnings.insert(info_.image.warnings.end(), joining_.begin(), joining_.end());
+  options_ = std::move(options);
 }
 
 void MapReader::set_faces(std::string faces) {
   ReadMapOptions changed = options_;
   changed.faces = std::move(faces);
-  info_ = inspect(path_, reader_->info(), changed);
-  options_ = changed;
+  inspect_with(std::move(changed));
 }
 
 void MapReader::set_orientation(const Matrix3& orientation) {
   ReadMapOptions changed = options_;
   changed.orientation = orientation;
-  info_ = inspect(path_, reader_->info(), changed);
-  options_ = changed;
+  inspect_with(std::move(changed));
 }
 
 void MapReader::set_level(int level) {
   ReadMapOptions changed = options_;
   changed.level = level;
-  info_ = inspect(path_, reader_->info(), changed);
-  options_ = changed;
+  inspect_with(std::move(changed));
+}
+
+namespace {
+
+/// Whether a file leaves it to guesses how the faces of its cube lie.
+bool leaves_faces_open(const MapFileInfo& info) {
+  return info.shape && info.shape->parameterization.traits().cube_faces &&
+         info.shape->layout.kind != LayoutKind::layers && attribute(info.image, kShapeKey).empty() &&
+         !info.image.envmap;
+}
+
+std::string text_of(const FaceReading& reading) {
+  std::string text =
+      reading.convention == "native" ? "the native world" : "the world of " + reading.convention;
+  if (!reading.faces.empty()) text += ", the faces being " + reading.faces;
+  return text;
+}
+
+}  // namespace
+
+void MapReader::join_faces() {
+  if (!leaves_faces_open(info_) || options_.orientation || !options_.faces.empty()) return;
+  const Joining joining = measure_joining(read(), shape().layout);
+  if (joining.joins()) return;
+  ReadMapOptions changed = options_;
+  if (joining.better) {
+    changed.orientation = joining.better->orientation;
+    changed.faces = joining.better->faces;
+    joining_ = {"its faces do not join in the native world, but in " + text_of(*joining.better) +
+                ": read so"};
+  } else {
+    joining_ = {"its faces do not join (" + info_.shape->text() + ", " + info_.reason +
+                "): name the parameterization, or the faces' order and turns"};
+  }
+  inspect_with(std::move(changed));
+}
+
+void MapReader::check_faces() {
+  if (!leaves_faces_open(info_)) return;
+  const Joining joining = measure_joining(read(), shape().layout);
+  if (joining.joins()) return;
+  joining_ = {"its faces do not join as they are read" +
+              (joining.better ? "; they would in " + text_of(*joining.better) : std::string())};
+  inspect_with(options_);
 }
 
 LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {

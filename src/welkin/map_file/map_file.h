@@ -43,6 +43,9 @@ struct ReadMapOptions {
   /// How two eyes' pictures lie in the file's; not_said: what the file declares, else what the aspect
   /// suggests where an eye is asked for, else one picture.
   io::Stereo stereo = io::Stereo::not_said;
+  /// Whether a cube whose file doesn't say how its faces lie is read another way when they don't join, which
+  /// costs a reading of its pixels when it is opened. Told as a warning.
+  bool join_faces = true;
   int border = 0;  ///< texels of safety border around every chart in the file, besides what the file declares
   /// Of a file with several pictures; where these are the charts, of several sets. None: the first that has
   /// the channels to read.
@@ -99,6 +102,9 @@ class WELKIN_API MapReader {
   void set_orientation(const Matrix3& orientation);
   /// Changes ReadMapOptions::level.
   void set_level(int level);
+  /// Reads a cube whose file doesn't say how its faces lie, and adds a warning where they don't join as they
+  /// are read now. Changes nothing else.
+  void check_faces();
 
   /// The map, its borders filled. Throws also when the shape is unknown. A picture of one chart is decoded
   /// straight into the map; of several, the picture is in memory besides the map while this lasts.
@@ -108,10 +114,14 @@ class WELKIN_API MapReader {
   Map read(int level);
 
  private:
+  void inspect_with(ReadMapOptions options);
+  void join_faces();
+
   std::filesystem::path path_;
   ReadMapOptions options_;
   std::unique_ptr<io::Reader> reader_;
   MapFileInfo info_;
+  std::vector<std::string> joining_;  ///< what there is to tell of how faces join
 };
 
 /// A map, and the file that it came from.
