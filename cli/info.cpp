@@ -22,6 +22,7 @@ struct Info {
   bool header = false, json = false;
 
   void run() const;
+  void decode_others(const std::string& path, const MapFileInfo& info) const;
 };
 
 ordered_json direction(const Vec3d& d) {
@@ -278,6 +279,22 @@ Measures measure_levels(MapReader& reader, std::optional<int> level) {
   return measures;
 }
 
+/// Decodes the pictures that no map is made of, so that the status says whether all of the file can be read.
+void Info::decode_others(const std::string& path, const MapFileInfo& info) const {
+  const bool alone =
+      info.shape && (info.image.parts.size() == 1 || is_texture(info.image) || info.image.levels > 1);
+  if (alone || path.find("%s") != std::string::npos) return;
+  const std::unique_ptr<io::Reader> reader = io::open(path, read.parse().image);
+  for (std::size_t part = 0; part < reader->info().parts.size(); ++part) {
+    const io::PartInfo& picture = reader->info().parts[part];
+    if (picture.deep || (info.shape && part == info.picture)) continue;
+    std::vector<int> channels;
+    for (std::size_t k = 0; k < picture.channels.size(); ++k) channels.push_back(static_cast<int>(k));
+    Image image(picture.width, picture.height, static_cast<int>(channels.size()));
+    reader->read(part, channels, image.view());
+  }
+}
+
 void Info::run() const {
   read.parse();
   ordered_json all = ordered_json::array();
@@ -294,6 +311,7 @@ void Info::run() const {
     first = false;
     ordered_json report = header_of(path, info);
     const bool measured = info.shape && !header;
+    if (!header) decode_others(path, info);
     const Measures measures = measured ? measure_levels(reader, read.level) : Measures{};
     if (!json) print_levels(info, measures.means);
     for (std::size_t level = 0; levels_of(info) > 1 && level < measures.means.size(); ++level) {

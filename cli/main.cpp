@@ -55,7 +55,7 @@ int run(int argc, char** argv) {
   app.add_option("--progress", progress, "Progress bar: auto (on a terminal), always, never")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   bool quiet = false;
-  app.add_flag("-q,--quiet", quiet, "Print errors only on stderr, no warnings");
+  app.add_flag("-q,--quiet", quiet, "No warnings on stderr of what reading changed, guessed or left undone");
   cli::add_info(app);
   cli::add_convert(app);
   cli::add_bake(app);

@@ -1,5 +1,6 @@
 #include "welkin/io/xmp.h"
 
+#include "welkin/io/jpeg/jpeg_test_files.h"
 #include "welkin/io/test_pictures.h"
 
 namespace welkin::io::test {
@@ -78,6 +79,16 @@ TEST(Xmp, DamageIsAnErrorAndDepthIsSurvived) {
   for (int i = 0; i < 200000; ++i) deep += "</a>";
   const Xmp xmp(packet("", deep));
   EXPECT_EQ(xmp.text(kSpace, "ProjectionType"), std::nullopt);
+}
+
+TEST(Xmp, TheFirstOfTwoPacketsCounts) {
+  WriteOptions options;
+  options.panorama = Panorama{"equirectangular", 64, 32, 16, 8};
+  const Bytes bytes = encoded("jpg", noise(16, 8, 3), options);
+  Panorama other{"equirectangular", 128, 64, 16, 8};
+  const FileInfo info = info_of(with_marker(bytes, '\xe1', std::string(kXmpMarker) + xmp_of(other)));
+  EXPECT_EQ(info.panorama, other);
+  EXPECT_EQ(info.warnings.size(), 1u);
 }
 
 TEST(Xmp, EveryFormatThatCarriesItDoes) {

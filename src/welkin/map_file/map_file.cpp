@@ -89,8 +89,14 @@ std::string text_of(const FaceReading& reading) {
 void MapReader::join_faces() {
   if (!leaves_faces_open(info_) || options_.orientation || !options_.faces.empty()) return;
   const Joining joining = measure_joining(read(), shape().layout);
-  if (joining.joins()) return;
   ReadMapOptions changed = options_;
+  if (joining.joins()) {
+    // A picture of one colour joins in every way.
+    if (options_.shape || joining.step > 0 || joining.inner_step > 0) return;
+    joining_ = {"is taken for " + info_.shape->text() + ", " + info_.reason +
+                ": nothing in it tells whether it is"};
+    return inspect_with(std::move(changed));
+  }
   if (joining.better) {
     changed.orientation = joining.better->orientation;
     changed.faces = joining.better->faces;

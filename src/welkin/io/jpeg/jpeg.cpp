@@ -203,6 +203,10 @@ class JpegReader : public FormatReader {
       declared_.orientation =
           exif_orientation(std::as_bytes(std::span(text)).subspan(kExif.size())).value_or(1);
     if (!text.starts_with(kXmpMarker)) return;
+    if (!declared_.xmp.empty()) {
+      info_.warnings.push_back("a second XMP packet is ignored");
+      return;
+    }
     declared_.xmp = text.substr(kXmpMarker.size());
     has_further_ = has_further_ || declared_.xmp.find(kHdrGainMapSpace) != std::string::npos;
   }

@@ -282,7 +282,8 @@ class PngReader : public FormatReader {
               : std::string_view(texts[i].text, utf8 ? texts[i].itxt_length : texts[i].text_length);
       const std::string key = from_latin1(texts[i].key);
       if (key == kXmpKeyword) {
-        declared_.xmp = value;
+        if (!declared_.xmp.empty()) info_.warnings.push_back("a second XMP packet is ignored");
+        if (declared_.xmp.empty()) declared_.xmp = value;
         continue;
       }
       info_.attributes.emplace(key, utf8 ? std::string(value) : from_latin1(value));
