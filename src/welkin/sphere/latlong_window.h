@@ -51,9 +51,10 @@ class LatLongPart {
   template <class T>
   Mask<T> covers(const Vec3<T>& d) const {
     const T x = left_of(d), z = front_of(d), across = sqrt(x * x + z * z);
-    return (abs(x) * constant<T>(side_.cosine) <= z * constant<T>(side_.sine)) &
-           (d.y * constant<T>(top_.cosine) <= across * constant<T>(top_.sine)) &
-           (d.y * constant<T>(bottom_.cosine) >= across * constant<T>(bottom_.sine));
+    const auto beside = abs(x) * constant<T>(side_.cosine) <= z * constant<T>(side_.sine);
+    const auto below_top = d.y * constant<T>(top_.cosine) <= across * constant<T>(top_.sine);
+    const auto above_bottom = d.y * constant<T>(bottom_.cosine) >= across * constant<T>(bottom_.sine);
+    return beside & below_top & above_bottom;
   }
   double coverage() const {
     return width_ * 2 * std::cos(middle_) * std::sin(0.5 * height_);  // width · (sin top − sin bottom)
