@@ -39,18 +39,73 @@ TEST(Xmp, PanoramasGoBothWays) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(Xmp, APrefixMeansWhatTheInnermostElementSays) {
+  const Xmp xmp(packet("xmlns:a='one' xmlns:b='two' a:Heading='1'",
+                       "<a:Pitch xmlns:a='three'>2</a:Pitch><a:Roll>3</a:Roll><a:Heading>4</a:Heading>"
+                       "<none:Name>5</none:Name><Name>6</Name>"));
+  EXPECT_EQ(xmp.text("one", "Heading"), "1");
+  EXPECT_EQ(xmp.text("one", "Pitch"), std::nullopt);
+  EXPECT_EQ(xmp.text("three", "Pitch"), "2");
+  EXPECT_EQ(xmp.text("one", "Roll"), "3");
+  EXPECT_EQ(xmp.text("two", "Roll"), std::nullopt);
+}
+
+TEST(Xmp, WideCharactersAndPaddingAreRead) {
+  const std::string text = packet("xmlns:a='one' a:Heading='1'");
+  for (const std::size_t unit : {1u, 2u, 4u}) {
+    for (const bool little : {false, true}) {
+      std::string wide;
+      for (const char c : text) {
+        std::string character(unit, '\0');
+        character[little ? 0 : unit - 1] = c;
+        wide += character;
+      }
+      for (const std::size_t padding : {0u, 1u, 4u, 100u})
+        EXPECT_EQ(Xmp(wide + std::string(padding * unit, '\0')).text("one", "Heading"), "1")
+            << unit << little << padding;
+    }
+  }
+  EXPECT_THROW(Xmp(std::string(8, '\0')), Error);
+  EXPECT_THROW(Xmp(""), Error);
+}
+
+TEST(Xmp, DeepAndLongPacketsTakeNoLongerThanTheirBytes) {
+  // Each name was once looked up in all elements around it, which took minutes.
+  constexpr int kElements = 100'000;
+  std::string opened, closed, attributes;
+  for (int i = 0; i < kElements; ++i) {
+    opened += "<a:ProjectionType>";
+    closed += "</a:ProjectionType>";
+    attributes += " b:FullPanoWidthPixels='1'";
+  }
+  std::vector<std::string> warnings;
+  EXPECT_EQ(panorama_from(Xmp(opened + closed), warnings), std::nullopt);
+  EXPECT_EQ(panorama_from(Xmp("<x" + attributes + "/>"), warnings), std::nullopt);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(Xmp, AnyProjectionIsWrittenAsItIs) {
+  Panorama panorama;
+  for (const std::string projection : {"a\" b='<&>'", "a\tb\nc\rd", "\xc3\xa9"}) {
+    panorama.projection = projection;
+    std::vector<std::string> warnings;
+    EXPECT_EQ(panorama_from(Xmp(xmp_of(panorama)), warnings), panorama);
+  }
+}
+
 TEST(Xmp, NumbersThatCannotBeMeantAreTold) {
   std::vector<std::string> warnings;
   const auto panorama =
       panorama_from(Xmp(packet("xmlns:GPano='" + kSpace +
                                "' GPano:ProjectionType='equirectangular' GPano:FullPanoWidthPixels='many' "
                                "GPano:FullPanoHeightPixels='-4' GPano:CroppedAreaLeftPixels='1e300' "
+                               "GPano:CroppedAreaTopPixels='0x10' "
                                "GPano:PosePitchDegrees='nan'")),
                     warnings);
   ASSERT_TRUE(panorama);
   EXPECT_EQ(panorama->full_width, 0);
   EXPECT_EQ(panorama->pitch, 0);
-  EXPECT_EQ(warnings.size(), 4u);
+  EXPECT_EQ(warnings.size(), 5u);
 }
 
 TEST(Xmp, PacketsWithoutAPanoramaSayNothing) {
