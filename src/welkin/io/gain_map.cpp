@@ -13,6 +13,10 @@
 namespace welkin::io {
 namespace {
 
+[[noreturn]] void fail_range() {
+  throw Error(ErrorKind::damaged, "its gain map's numbers are out of range");
+}
+
 void check(const GainMapMetadata& metadata) {
   constexpr double kMostStops = 64;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -20,7 +24,7 @@ void check(const GainMapMetadata& metadata) {
                        std::fabs(metadata.maximum[c]) <= kMostStops && metadata.gamma[c] > 0 &&
                        std::isfinite(metadata.gamma[c]) && std::fabs(metadata.base_offset[c]) <= 1 &&
                        std::fabs(metadata.alternate_offset[c]) <= 1;
-    if (!sound) throw Error(ErrorKind::damaged, "its gain map's numbers are out of range");
+    if (!sound) fail_range();
   }
 }
 
@@ -85,6 +89,7 @@ std::optional<GainMapMetadata> gain_map_metadata(std::span<const std::byte> byte
     return numerator / ((flags & kCommonDenominator) != 0 ? common : numbers.take<std::uint32_t>());
   };
   const double base_headroom = fraction(std::uint32_t{}), alternate_headroom = fraction(std::uint32_t{});
+  if (!std::isfinite(base_headroom) || !std::isfinite(alternate_headroom)) fail_range();
   GainMapMetadata metadata;
   for (std::size_t c = 0; c < ((flags & kSeveralChannels) != 0 ? 3 : 1); ++c) {
     metadata.minimum[c] = fraction(std::int32_t{});

@@ -140,6 +140,25 @@ TEST(GainMap, WhatIsMissingOrMalformedIsTold) {
   }
 }
 
+TEST(GainMap, FractionsOverZeroAreOutOfRange) {
+  // Headrooms, minimum, maximum, gamma and both offsets; each denominator in turn is 0, also where that makes
+  // 0/0.
+  const auto metadata_of = [](const std::vector<int>& numbers) {
+    std::string text("\0\0\0\0\x40", 5);
+    for (const int number : numbers) text += words({number});
+    return gain_map_metadata(bytes_of(text));
+  };
+  const std::vector<int> sound{0, 1, 3, 1, 0, 1, 6, 2, 1, 1, 0, 1, 0, 1};
+  EXPECT_EQ(metadata_of(sound)->maximum[2], 3);
+  for (std::size_t i = 1; i < sound.size(); i += 2) {
+    std::vector<int> numbers = sound;
+    numbers[i] = 0;
+    EXPECT_NE(error_of([&] { metadata_of(numbers); }).find("out of range"), std::string::npos) << i;
+  }
+  const std::string common = std::string("\0\0\0\0\x48", 5) + words({0, 0, 6, 0, 6, 2, 0, 0});
+  EXPECT_NE(error_of([&] { gain_map_metadata(bytes_of(common)); }).find("out of range"), std::string::npos);
+}
+
 TEST(GainMap, DamageIsSurvived) {
   const Bytes gains = with_marker(jpeg(of_colour(4, 2, {1, 1, 1}), Colour::linear), '\xe1',
                                   with_description("hdrgm:GainMapMax='3'"));
