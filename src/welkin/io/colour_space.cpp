@@ -35,6 +35,9 @@ Matrix3 to_xyz(const Chromaticities& c) {
                             {c.red[1], c.green[1], c.blue[1]},
                             {z(c.red), z(c.green), z(c.blue)}}}};
   const Vec3d scale = inverse(primaries) * xyz_of(c.white);
+  // Else one of them would have negative light.
+  if (!(scale.x > 0 && scale.y > 0 && scale.z > 0))
+    throw Error(ErrorKind::bad_value, "its white lies outside its primaries");
   Matrix3 result = primaries;
   for (auto& row : result.rows) row = {row[0] * scale.x, row[1] * scale.y, row[2] * scale.z};
   return result;
@@ -45,6 +48,7 @@ Matrix3 adaptation(const double (&from)[2], const double (&to)[2]) {
   constexpr Matrix3 kCones{
       {{{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}}};
   const Vec3d a = kCones * xyz_of(from), b = kCones * xyz_of(to);
+  if (!(a.x > 0 && a.y > 0 && a.z > 0)) throw Error(ErrorKind::bad_value, "its white is no light");
   const Matrix3 gains{{{{b.x / a.x, 0, 0}, {0, b.y / a.y, 0}, {0, 0, b.z / a.z}}}};
   return inverse(kCones) * gains * kCones;
 }

@@ -10,8 +10,8 @@ namespace welkin::io {
 inline constexpr Chromaticities kBt709{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
 
 /// Linear R G B of these primaries to linear R G B of BT.709, by CIE XYZ; white stays white, by Bradford's
-/// adaptation (Lam 1985) where the whites differ. Throws Error (bad_value) for primaries on one line or
-/// whites without light.
+/// adaptation (Lam 1985) where the whites differ. Throws Error (bad_value) for primaries on one line, and
+/// whites outside them or without light.
 Matrix3 to_bt709(const Chromaticities& primaries);
 
 /// Whether to_bt709 changes no value by a part in 10⁴.

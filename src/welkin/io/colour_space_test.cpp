@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "welkin/base/error.h"
 #include "welkin/io/code_points.h"
 
@@ -45,6 +47,32 @@ TEST(ColourSpace, PrimariesThatMakeNoColoursAreErrors) {
   EXPECT_THROW(to_bt709({{0.6, 0.3}, {0.6, 0.3}, {0.1, 0.1}, {0.3, 0.3}}), Error);
   EXPECT_THROW(to_bt709({{0.64, 0.33}, {0.3, 0.6}, {0.15, 0.06}, {0.3, 0}}), Error);
   EXPECT_THROW(to_bt709({{}, {}, {}, {}}), Error);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity, -infinity}) {
+    for (int i = 0; i < 8; ++i) {
+      Chromaticities c = kBt709;
+      double* const numbers[] = {c.red, c.green, c.blue, c.white};
+      numbers[i / 2][i % 2] = bad;
+      EXPECT_THROW(to_bt709(c), Error) << bad << " at " << i;
+    }
+  }
+  Chromaticities outside = kBt709;
+  outside.white[0] = 0.7;
+  EXPECT_THROW(to_bt709(outside), Error);
+}
+
+TEST(ColourSpace, XyzIsPrimariesToo) {
+  // Code points 10, of which two have no luminance. Equal parts are white. The numbers were computed apart:
+  // Bradford's adaptation from E to D65, then the inverse of BT.709's matrix.
+  const Matrix3 matrix = to_bt709(*chromaticities_of(10));
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(matrix.rows[i][0] + matrix.rows[i][1] + matrix.rows[i][2], 1, 1e-9);
+  const double expected[3][3] = {
+      {3.1467, -1.6665, -0.4802}, {-0.9955, 1.9558, 0.0398}, {0.0636, -0.2146, 1.1510}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(matrix.rows[i][k], expected[i][k], 1e-4) << i << k;
+  }
 }
 
 TEST(ColourSpace, CurvesMeetTheirStandards) {
