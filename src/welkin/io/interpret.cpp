@@ -87,6 +87,10 @@ class InterpretingReader : public Reader {
       return std::count(part.channels.begin(), part.channels.end(), "A") > 0;
     });
     if (!alpha) declared_.alpha = AlphaKind::associated;
+    // Nothing is encoded that is left linear.
+    if (declared_.alpha == AlphaKind::encoded && info_.colour != Colour::srgb && curve_ == Curve::none &&
+        !profile_)
+      declared_.alpha = AlphaKind::associated;
     if (declared_.alpha != AlphaKind::associated)
       info_.notes.push_back(
           declared_.alpha == AlphaKind::straight
@@ -115,13 +119,18 @@ class InterpretingReader : public Reader {
     const PartInfo& stored = reader_->info().parts[part];
     // Those that are asked for, and those that they depend on.
     std::vector<int> needed(channels.begin(), channels.end());
-    if (mixes()) {
+    const bool encoded = declared_.alpha == AlphaKind::encoded;
+    if (mixes() || encoded) {
       for (const ColourGroup& group : groups_of(stored.channels)) {
-        const int rgb[3] = {group.r, group.g, group.b};
-        if (!group.whole() || std::none_of(rgb, rgb + 3, [&](int c) { return is_in(needed, c); })) continue;
-        for (const int c : rgb) {
-          if (!is_in(needed, c)) needed.push_back(c);
-        }
+        const auto need = [&](int c) {
+          if (c >= 0 && !is_in(needed, c)) needed.push_back(c);
+        };
+        const int colours[] = {group.r, group.g, group.b, group.y};
+        if (std::none_of(std::begin(colours), std::end(colours), [&](int c) { return is_in(needed, c); }))
+          continue;
+        if (encoded) need(group.a);
+        if (!mixes() || !group.whole()) continue;
+        for (const int c : {group.r, group.g, group.b}) need(c);
       }
     }
     std::vector<std::string> names;
@@ -243,6 +252,7 @@ class InterpretingReader : public Reader {
   void convert(std::span<const std::string> names, ImageView<float> pixels) const {
     for (const ColourGroup& group : groups_of(names)) {
       const int y = group.y >= 0 && !group.whole() ? group.y : -1;
+      if (declared_.alpha == AlphaKind::encoded && group.a >= 0) divide(group, pixels);
       if (profile_ && group.whole() && profile_->channels() == 3)
         profile_->to_linear(pixels, group.r, group.g, group.b, curves_alone_);
       if (profile_ && y >= 0 && profile_->channels() == 1)
@@ -295,20 +305,31 @@ class InterpretingReader : public Reader {
     });
   }
 
-  void multiply(const ColourGroup& group, ImageView<float> pixels) const {
-    const int colours[] = {group.r, group.g, group.b, group.y};
-    const bool encoded = declared_.alpha == AlphaKind::encoded && reader_->info().colour == Colour::srgb;
-    if (declared_.alpha == AlphaKind::encoded && !encoded) return;  // linear when they were multiplied
+  /// Takes alpha out of the encoded colours, so that a curve meets what was encoded. Without alpha there is
+  /// nothing to be taken out.
+  void divide(const ColourGroup& group, ImageView<float> pixels) const {
+    const bool srgb = reader_->info().colour == Colour::srgb;  // undone by the format
     each_pixel(pixels, [&](float* pixel) {
       const auto alpha = static_cast<double>(pixel[group.a]);
-      for (const int c : colours) {
+      if (!(alpha > 0)) return;
+      for (const int c : {group.r, group.g, group.b, group.y}) {
         if (c < 0) continue;
         const auto value = static_cast<double>(pixel[c]);
-        if (!encoded) {
-          pixel[c] = static_cast<float>(value * alpha);
-        } else if (alpha > 0) {
-          pixel[c] = static_cast<float>(alpha * srgb_to_linear(linear_to_srgb(value) / alpha));
-        }
+        const double stored = srgb ? linear_to_srgb(value) : value;
+        // Lossy coding leaves colours greater than their alpha.
+        const double whole = std::min(stored / alpha, std::max(1.0, stored));
+        pixel[c] = static_cast<float>(srgb ? srgb_to_linear(whole) : whole);
+      }
+    });
+  }
+
+  void multiply(const ColourGroup& group, ImageView<float> pixels) const {
+    const bool divided = declared_.alpha == AlphaKind::encoded;
+    each_pixel(pixels, [&](float* pixel) {
+      const float alpha = pixel[group.a];
+      if (divided && !(alpha > 0)) return;
+      for (const int c : {group.r, group.g, group.b, group.y}) {
+        if (c >= 0) pixel[c] *= alpha;
       }
     });
   }

@@ -49,6 +49,28 @@ Image of_values(int width, int height, int channels, const std::vector<float>& v
   return image;
 }
 
+/// A profile of R G B with a power as its curve, or of grey.
+std::vector<std::byte> profile_of(const Chromaticities& c, double gamma, bool grey = false) {
+  const cmsCIExyY white{c.white[0], c.white[1], 1};
+  cmsToneCurve* const curve = cmsBuildGamma(nullptr, gamma);
+  cmsHPROFILE profile = nullptr;
+  if (grey) {
+    profile = cmsCreateGrayProfile(&white, curve);
+  } else {
+    const cmsCIExyYTRIPLE primaries{
+        {c.red[0], c.red[1], 1}, {c.green[0], c.green[1], 1}, {c.blue[0], c.blue[1], 1}};
+    cmsToneCurve* curves[3] = {curve, curve, curve};
+    profile = cmsCreateRGBProfile(&white, &primaries, curves);
+  }
+  cmsUInt32Number size = 0;
+  cmsSaveProfileToMem(profile, nullptr, &size);
+  std::vector<std::byte> bytes(size);
+  cmsSaveProfileToMem(profile, bytes.data(), &size);
+  cmsCloseProfile(profile);
+  cmsFreeToneCurve(curve);
+  return bytes;
+}
+
 TEST(Interpret, EveryOrientationStandsUpright) {
   // The letter F of 3×2, as Exif's examples show it in the eight orientations: upright it is 1 2 / 3 4 / 5 6.
   const std::vector<float> upright{1, 2, 3, 4, 5, 6};
@@ -100,6 +122,73 @@ TEST(Interpret, ColoursThatWereMultipliedEncodedAreLinear) {
   EXPECT_NEAR(image.at(0, 0)[0], 0.5 * srgb_to_linear(188 / 255.0), 1e-6);
 }
 
+TEST(Interpret, ACurveMeetsColoursWithoutTheirAlpha) {
+  // A whole colour of 0.6 at half coverage: stored 0.3. Multiplied again once it is linear.
+  const std::pair<Curve, double> curves[] = {{Curve::pq, to_linear(Curve::pq, 1, 0.6)},
+                                             {Curve::gamma, std::pow(0.6, 2.8)},
+                                             {Curve::bt709, to_linear(Curve::bt709, 1, 0.6)},
+                                             {Curve::hlg, 0}};
+  for (const auto& [curve, linear] : curves) {
+    Declared declared;
+    declared.alpha = AlphaKind::encoded;
+    declared.curve = curve;
+    declared.gamma = 2.8;
+    const double scene = to_linear(Curve::hlg, 1, 0.6);
+    const double expected = curve == Curve::hlg ? scene * hlg_display_gain(scene) : linear;
+    const auto reader =
+        interpreted(of_values(3, 1, 4, {0.3f, 0.3f, 0.3f, 0.5f, 0.6f, 0.6f, 0.6f, 1, 0, 0, 0, 0}),
+                    {"R", "G", "B", "A"}, declared);
+    const Image image = read_part(*reader);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(image.at(0, 0)[c], 0.5 * expected, 1e-5 * expected) << c;
+      EXPECT_NEAR(image.at(1, 0)[c], expected, 1e-5 * expected) << c;
+      EXPECT_EQ(image.at(2, 0)[c], 0.0f);
+    }
+    EXPECT_EQ(image.at(0, 0)[3], 0.5f);
+    // Without alpha among the channels too.
+    Image green(3, 1, 1);
+    reader->read(0, std::vector{1}, green.view());
+    EXPECT_EQ(*green.at(0, 0), image.at(0, 0)[1]);
+  }
+}
+
+TEST(Interpret, AProfileMeetsColoursWithoutTheirAlpha) {
+  for (const bool grey : {false, true}) {
+    Declared declared;
+    declared.alpha = AlphaKind::encoded;
+    declared.icc = profile_of(grey ? kBt709 : *chromaticities_of(12), 1.8, grey);
+    const std::vector<std::string> names =
+        grey ? std::vector<std::string>{"Y", "A"} : std::vector<std::string>{"R", "G", "B", "A"};
+    const int channels = static_cast<int>(names.size());
+    std::vector<float> stored(names.size(), 0.2f);
+    stored.back() = 0.25f;
+    const Image image = read_part(*interpreted(of_values(1, 1, channels, stored), names, declared));
+    for (int c = 0; c + 1 < channels; ++c)
+      EXPECT_NEAR(image.at(0, 0)[c], 0.25 * std::pow(0.8, 1.8), 1e-3) << grey << c;
+  }
+}
+
+TEST(Interpret, EncodedColoursGreaterThanTheirAlphaStayWithinTheRange) {
+  Declared declared;
+  declared.alpha = AlphaKind::encoded;
+  declared.curve = Curve::pq;
+  const Image image =
+      read_part(*interpreted(of_values(1, 1, 4, {0.5f, 0, 0, 1 / 255.0f}), {"R", "G", "B", "A"}, declared));
+  EXPECT_NEAR(image.at(0, 0)[0], 10000 / kDiffuseWhite / 255, 1e-4);
+}
+
+TEST(Interpret, AlphaOfLinearColoursIsAssociated) {
+  Declared declared;
+  declared.alpha = AlphaKind::encoded;
+  ReadOptions linear;
+  linear.colour = Colour::linear;
+  declared.curve = Curve::pq;
+  const auto reader =
+      interpreted(of_values(1, 1, 4, {0.25f, 0, 0, 0.5f}), {"R", "G", "B", "A"}, declared, linear);
+  EXPECT_EQ(read_part(*reader).at(0, 0)[0], 0.25f);
+  EXPECT_TRUE(reader->info().notes.empty());
+}
+
 TEST(Interpret, AColourThatIsReadAloneIsConvertedAll) {
   Declared declared;
   declared.primaries = chromaticities_of(9);
@@ -120,28 +209,6 @@ TEST(Interpret, LayersAreConvertedEach) {
   const Image image = read_part(*reader);
   EXPECT_NEAR(image.at(0, 0)[1], 1.1329, 1e-4);
   for (int c = 3; c < 6; ++c) EXPECT_NEAR(image.at(0, 0)[c], 1, 1e-6);
-}
-
-/// A profile of R G B with a power as its curve, or of grey.
-std::vector<std::byte> profile_of(const Chromaticities& c, double gamma, bool grey = false) {
-  const cmsCIExyY white{c.white[0], c.white[1], 1};
-  cmsToneCurve* const curve = cmsBuildGamma(nullptr, gamma);
-  cmsHPROFILE profile = nullptr;
-  if (grey) {
-    profile = cmsCreateGrayProfile(&white, curve);
-  } else {
-    const cmsCIExyYTRIPLE primaries{
-        {c.red[0], c.red[1], 1}, {c.green[0], c.green[1], 1}, {c.blue[0], c.blue[1], 1}};
-    cmsToneCurve* curves[3] = {curve, curve, curve};
-    profile = cmsCreateRGBProfile(&white, &primaries, curves);
-  }
-  cmsUInt32Number size = 0;
-  cmsSaveProfileToMem(profile, nullptr, &size);
-  std::vector<std::byte> bytes(size);
-  cmsSaveProfileToMem(profile, bytes.data(), &size);
-  cmsCloseProfile(profile);
-  cmsFreeToneCurve(curve);
-  return bytes;
 }
 
 TEST(Interpret, ProfilesAreMadeLinearInBt709) {
