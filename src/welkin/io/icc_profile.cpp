@@ -1,11 +1,16 @@
 #include "welkin/io/icc_profile.h"
 
 #include <lcms2.h>
+#include <lcms2_plugin.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 #include "welkin/base/error.h"
@@ -24,18 +29,53 @@ using ToneCurve = std::unique_ptr<cmsToneCurve, decltype(&cmsFreeToneCurve)>;
 /// Profiles of pictures have kilobytes; a table of 33³ colours a few hundred.
 constexpr std::size_t kLargest = std::size_t{16} << 20;
 
-/// Linear, with BT.709's primaries.
+/// All that Little CMS may ask for while a profile is opened, freed or not: tables that a profile claims, or
+/// names over and over, are made before their bytes are missed.
+constexpr std::uint64_t kMostMemory = std::uint64_t{256} << 20;
+
+/// Steps from values to colours, each of which costs time at each pixel. Real profiles have up to five.
+constexpr cmsUInt32Number kMostSteps = 64;
+
+/// The tags of tables, in the order of which the first serves, before a matrix and curves.
+constexpr cmsTagSignature kTables[] = {cmsSigDToB1Tag, cmsSigAToB1Tag, cmsSigAToB0Tag};
+
+/// What a context has asked for, bytes.
+using Memory = std::atomic<std::uint64_t>;
+
+bool may_take(cmsContext context, cmsUInt32Number size) {
+  auto* const taken = static_cast<Memory*>(cmsGetContextUserData(context));
+  return taken == nullptr || taken->fetch_add(size) + size <= kMostMemory;
+}
+void* take(cmsContext context, cmsUInt32Number size) {
+  return may_take(context, size) ? std::malloc(size) : nullptr;
+}
+void* take_again(cmsContext context, void* memory, cmsUInt32Number size) {
+  return may_take(context, size) ? std::realloc(memory, size) : nullptr;
+}
+void give_back(cmsContext, void* memory) {
+  std::free(memory);
+}
+
+/// A context of one's own: no other code's error handlers, no plug-ins but the one that counts memory.
+cmsContext counting_context(Memory& taken) {
+  cmsPluginMemHandler handler{};
+  handler.base = {cmsPluginMagicNumber, LCMS_VERSION, cmsPluginMemHandlerSig, nullptr};
+  handler.MallocPtr = take;
+  handler.FreePtr = give_back;
+  handler.ReallocPtr = take_again;
+  return cmsCreateContext(&handler, &taken);
+}
+
+/// Linear, with BT.709's primaries; null without memory.
 Profile linear_bt709(cmsContext context) {
   const cmsCIExyY white{kBt709.white[0], kBt709.white[1], 1};
   const cmsCIExyYTRIPLE primaries{{kBt709.red[0], kBt709.red[1], 1},
                                   {kBt709.green[0], kBt709.green[1], 1},
                                   {kBt709.blue[0], kBt709.blue[1], 1}};
   const ToneCurve line(cmsBuildGamma(context, 1), cmsFreeToneCurve);
-  if (line == nullptr) throw std::bad_alloc();
+  if (line == nullptr) return {nullptr, cmsCloseProfile};
   cmsToneCurve* curves[3] = {line.get(), line.get(), line.get()};
-  Profile profile(cmsCreateRGBProfileTHR(context, &white, &primaries, curves), cmsCloseProfile);
-  if (profile == nullptr) throw std::bad_alloc();
-  return profile;
+  return {cmsCreateRGBProfileTHR(context, &white, &primaries, curves), cmsCloseProfile};
 }
 
 std::string description(cmsHPROFILE profile) {
@@ -47,14 +87,43 @@ std::string description(cmsHPROFILE profile) {
 }  // namespace
 
 struct IccProfile::Implementation {
-  // Contexts of one's own: no other code's error handlers, no plug-ins.
-  std::unique_ptr<_cmsContext_struct, decltype(&cmsDeleteContext)> context{cmsCreateContext(nullptr, nullptr),
+  Memory taken = 0;
+  std::unique_ptr<_cmsContext_struct, decltype(&cmsDeleteContext)> context{counting_context(taken),
                                                                            cmsDeleteContext};
   Profile profile{nullptr, cmsCloseProfile};
   Transform transform{nullptr, cmsDeleteTransform};
   std::string name;
   int channels = 3;
   std::optional<CodePoints> code_points;
+
+  [[noreturn]] void fail(const char* cause) const {
+    if (taken > kMostMemory)
+      throw Error(ErrorKind::too_large,
+                  "it takes more than " + std::to_string(kMostMemory >> 20) + " MiB of memory");
+    throw Error(ErrorKind::damaged, cause);
+  }
+
+  void check_steps() const {
+    for (const cmsTagSignature tag : kTables) {
+      if (cmsIsTag(profile.get(), tag) == 0) continue;
+      const auto* const steps = static_cast<const cmsPipeline*>(cmsReadTag(profile.get(), tag));
+      if (steps != nullptr && cmsPipelineStageCount(steps) > kMostSteps)
+        throw Error(ErrorKind::unsupported,
+                    "it has more than " + std::to_string(kMostSteps) + " steps from values to colours");
+    }
+  }
+
+  /// Throws unless whole values become colours.
+  void check_colours() const {
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::array<float, 3> in{static_cast<float>(corner & 1), static_cast<float>(corner >> 1 & 1),
+                                    static_cast<float>(corner >> 2)};
+      std::array<float, 3> out{};
+      convert(in.data(), out.data(), 1);
+      if (!std::all_of(out.begin(), out.end(), [](float value) { return std::isfinite(value); }))
+        fail("its numbers make no colours");
+    }
+  }
 
   void convert(const float* in, float* out, std::size_t pixels) const {
     cmsDoTransform(transform.get(), in, out, static_cast<cmsUInt32Number>(pixels));
@@ -71,7 +140,7 @@ IccProfile::IccProfile(std::span<const std::byte> bytes) : self_(std::make_uniqu
   if (self.context == nullptr) throw std::bad_alloc();
   self.profile.reset(
       cmsOpenProfileFromMemTHR(self.context.get(), bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
-  if (self.profile == nullptr) throw Error(ErrorKind::damaged, "it is malformed");
+  if (self.profile == nullptr) self.fail("it is malformed");
   const cmsColorSpaceSignature space = cmsGetColorSpace(self.profile.get());
   if (space != cmsSigRgbData && space != cmsSigGrayData)
     throw Error(ErrorKind::unsupported, "it is not of grey or R G B");
@@ -82,12 +151,14 @@ IccProfile::IccProfile(std::span<const std::byte> bytes) : self_(std::make_uniqu
   constexpr auto kCicp = static_cast<cmsTagSignature>(0x63696370);
   if (cmsReadRawTag(self.profile.get(), kCicp, tag.data(), tag.size()) == tag.size())
     self.code_points = CodePoints{tag[8], tag[9]};
+  self.check_steps();
   const Profile target = linear_bt709(self.context.get());
+  if (target == nullptr) self.fail("it is malformed");
   self.transform.reset(cmsCreateTransformTHR(
       self.context.get(), self.profile.get(), self.channels == 1 ? TYPE_GRAY_FLT : TYPE_RGB_FLT, target.get(),
       TYPE_RGB_FLT, INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE));
-  if (self.transform == nullptr)
-    throw Error(ErrorKind::damaged, "it lacks what turns its values into colours");
+  if (self.transform == nullptr) self.fail("it lacks what turns its values into colours");
+  self.check_colours();
 }
 
 IccProfile::~IccProfile() = default;
@@ -104,8 +175,10 @@ std::optional<IccProfile::CodePoints> IccProfile::code_points() const {
 }
 
 bool IccProfile::has_primaries() const {
+  const auto has = [&](cmsTagSignature tag) { return cmsIsTag(self_->profile.get(), tag) != 0; };
   return self_->channels == 1 ||
-         (cmsIsMatrixShaper(self_->profile.get()) != 0 && self_->curve(0) != nullptr &&
+         (std::none_of(std::begin(kTables), std::end(kTables), has) &&
+          cmsIsMatrixShaper(self_->profile.get()) != 0 && self_->curve(0) != nullptr &&
           self_->curve(1) != nullptr && self_->curve(2) != nullptr);
 }
 
@@ -123,7 +196,6 @@ Matrix3 IccProfile::to_bt709() const {
 
 bool IccProfile::is_srgb() const {
   constexpr int kSteps = 16;
-  double largest = 0;
   for (int k = 0; k <= kSteps; ++k) {
     for (int hue = 0; hue < (self_->channels == 1 ? 1 : 4); ++hue) {
       const auto stored = static_cast<float>(k) / kSteps;
@@ -132,13 +204,13 @@ bool IccProfile::is_srgb() const {
       for (int c = 0; hue > 0 && c < 3; ++c) in[static_cast<std::size_t>(c)] = c == hue - 1 ? stored : 0.2f;
       std::array<float, 3> out{};
       self_->convert(in.data(), out.data(), 1);
-      for (std::size_t c = 0; c < 3; ++c)
-        largest = std::max(largest,
-                           std::fabs(static_cast<double>(out[c]) -
-                                     srgb_to_linear(static_cast<double>(in[self_->channels == 1 ? 0 : c]))));
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double srgb = srgb_to_linear(static_cast<double>(in[self_->channels == 1 ? 0 : c]));
+        if (!(std::fabs(static_cast<double>(out[c]) - srgb) < 1e-3)) return false;  // NaN too
+      }
     }
   }
-  return largest < 1e-3;
+  return true;
 }
 
 void IccProfile::to_linear(ImageView<float> pixels, int r, int g, int b, bool keep_primaries) const {
@@ -154,7 +226,7 @@ void IccProfile::to_linear(ImageView<float> pixels, int r, int g, int b, bool ke
         const cmsToneCurve* const curve = self_->curve(c);
         for (std::size_t x = 0; x < count; ++x) {
           float& value = row[x * step + static_cast<std::size_t>(at[c])];
-          value = cmsEvalToneCurveFloat(curve, value);
+          if (!std::isnan(value)) value = cmsEvalToneCurveFloat(curve, value);
         }
       }
       return;
@@ -166,6 +238,13 @@ void IccProfile::to_linear(ImageView<float> pixels, int r, int g, int b, bool ke
     }
     self_->convert(in.data(), out.data(), count);
     for (std::size_t x = 0; x < count; ++x) {
+      // A table has an entry for NaN as well.
+      const auto first = in.begin() + static_cast<std::ptrdiff_t>(x * channels);
+      const bool unknown = std::any_of(first, first + static_cast<std::ptrdiff_t>(channels),
+                                       [](float value) { return std::isnan(value); });
+      if (unknown)
+        std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(3 * x), 3,
+                    std::numeric_limits<float>::quiet_NaN());
       for (std::size_t c = 0; c < 3; ++c) row[x * step + static_cast<std::size_t>(at[c])] = out[3 * x + c];
     }
   });

@@ -14,7 +14,7 @@ namespace welkin::io {
 /// An ICC profile of pictures of grey or R G B, read by Little CMS.
 class IccProfile {
  public:
-  /// Throws Error (unsupported, damaged) with a cause that says what the profile is instead.
+  /// Throws Error (unsupported, damaged, too_large) with a cause that says what the profile is instead.
   explicit IccProfile(std::span<const std::byte> bytes);
   ~IccProfile();
   IccProfile(IccProfile&&) noexcept;
@@ -32,7 +32,8 @@ class IccProfile {
 
   /// Replaces stored values, 1 being the largest code, by linear light: BT.709's R G B, or with
   /// `keep_primaries` the profile's own, where it is a matrix and curves (else BT.709's too). Channels `r`,
-  /// `g`, `b` of the view; all the same of grey. Relative colorimetric: white stays white. Rows in parallel.
+  /// `g`, `b` of the view; all the same of grey. Relative colorimetric: white stays white, and NaN
+  /// NaN. Rows in parallel.
   void to_linear(ImageView<float> pixels, int r, int g, int b, bool keep_primaries) const;
   /// Whether keep_primaries can be met.
   bool has_primaries() const;
