@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "metadata_seeds.h"
 #include "welkin/base/error.h"
 #include "welkin/io/heif/heif_test_files.h"
 #include "welkin/io/image_file.h"
@@ -272,6 +273,7 @@ int main(int argc, char** argv) {
     write_other_tiff(root / "tiff");
     write_jxl_seeds(root / "jxl");
     write_heif_seeds(root / "heif");
+    fuzz::write_metadata_seeds(root);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_corpus: %s\n", error.what());
     return 1;

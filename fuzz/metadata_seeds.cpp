@@ -1,0 +1,281 @@
+#include "metadata_seeds.h"
+
+#include <lcms2.h>
+#include <zlib.h>
+
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "welkin/image/image.h"
+#include "welkin/io/image_file.h"
+#include "welkin/io/xmp.h"
+
+namespace welkin::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Named = std::vector<std::pair<std::string, std::string>>;  ///< names and bytes
+
+std::string big_endian(std::size_t value, int bytes = 4) {
+  std::string text;
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) text += static_cast<char>(value >> shift & 255);
+  return text;
+}
+
+void save(const fs::path& path, const std::string& bytes) {
+  fs::create_directories(path.parent_path());
+  std::ofstream stream(path, std::ios::binary);
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream.good()) throw std::runtime_error(path.string() + " cannot be written");
+}
+
+/// A small picture as a file of that extension.
+std::string encoded(const fs::path& folder, const std::string& extension, int width, int height) {
+  Image image(width, height, 3);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      image.at(x, y)[x % 3] = static_cast<float>(y + 1) / static_cast<float>(height);
+  }
+  const io::WritePart part{"", image.view(), {"R", "G", "B"}};
+  io::WriteOptions options;
+  options.type = io::PixelType::uint8;
+  const fs::path path = folder / ("made." + extension);
+  io::write(path, {&part, 1}, options);
+  std::string bytes;
+  {
+    std::ifstream stream(path, std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  fs::remove(path);
+  return bytes;
+}
+
+// ------------------------------------------------------------------------------------------------- XMP
+// packets
+
+std::string described(const std::string& attributes, const std::string& elements) {
+  return "<x:xmpmeta xmlns:x='adobe:ns:meta/'><rdf:RDF "
+         "xmlns:rdf='http://www.w3.org/1999/02/22-rdf-syntax-ns#'>"
+         "<rdf:Description xmlns:g='http://ns.google.com/photos/1.0/panorama/' "
+         "xmlns:h='http://ns.adobe.com/hdr-gain-map/1.0/' "
+         "xmlns:s='http://ns.google.com/videos/1.0/spherical/' "
+         "xmlns:i='http://ns.google.com/photos/1.0/image/' " +
+         attributes + ">" + elements + "</rdf:Description></rdf:RDF></x:xmpmeta>";
+}
+
+/// ASCII as UTF-16 or UTF-32 in big-endian order, with its mark.
+std::string widened(const std::string& text, int bytes) {
+  std::string wide = big_endian(0xfeff, bytes);
+  for (const char c : text) wide += big_endian(static_cast<unsigned char>(c), bytes);
+  return wide;
+}
+
+Named xmp_packets() {
+  io::Panorama panorama{"equirectangular", 8192, 4096, 4096, 1024};
+  panorama.crop_left = 2048;
+  panorama.heading = 271.25;
+  panorama.pitch = -3;
+  const std::string stereo = described("s:StereoMode='top-bottom' i:Mime='image/jpeg'", "");
+  return {{"panorama", io::xmp_of(panorama)},
+          {"stereo", stereo},
+          {"elements", described("",
+                                 "<g:ProjectionType>cylindrical</g:ProjectionType>"
+                                 "<g:PoseRollDegrees>0.5</g:PoseRollDegrees>")},
+          {"gain_map", described("h:Version='1.0' h:GainMapMin='0' h:GainMapMax='3' h:Gamma='1' "
+                                 "h:OffsetSDR='0.0156' h:OffsetHDR='0.0156' h:BaseRenditionIsHDR='False'",
+                                 "")},
+          {"gain_maps", described("",
+                                  "<h:GainMapMax><rdf:Seq><rdf:li>1</rdf:li><rdf:li>2</rdf:li>"
+                                  "<rdf:li>3</rdf:li></rdf:Seq></h:GainMapMax>")},
+          {"utf16", widened(stereo, 2)},
+          {"utf32", widened(stereo, 4)},
+          {"entities", "<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;&#x41;&lt;<![CDATA[d]]><!-- e --></a>"}};
+}
+
+// ------------------------------------------------------------------------------------------------ ICC
+// profiles
+
+using Profile = std::unique_ptr<void, decltype(&cmsCloseProfile)>;
+using ToneCurve = std::unique_ptr<cmsToneCurve, decltype(&cmsFreeToneCurve)>;
+using Pipeline = std::unique_ptr<cmsPipeline, decltype(&cmsPipelineFree)>;
+
+std::string saved(const Profile& profile) {
+  cmsUInt32Number size = 0;
+  if (profile == nullptr || cmsSaveProfileToMem(profile.get(), nullptr, &size) == 0)
+    throw std::runtime_error("a profile cannot be made");
+  std::string bytes(size, '\0');
+  cmsSaveProfileToMem(profile.get(), bytes.data(), &size);
+  return bytes;
+}
+
+Profile of_primaries(const ToneCurve& curve) {
+  const cmsCIExyY white = {0.3127, 0.3290, 1};
+  const cmsCIExyYTRIPLE primaries = {{0.680, 0.320, 1}, {0.265, 0.690, 1}, {0.150, 0.060, 1}};
+  cmsToneCurve* curves[3] = {curve.get(), curve.get(), curve.get()};
+  return {cmsCreateRGBProfile(&white, &primaries, curves), cmsCloseProfile};
+}
+
+/// R G B to XYZ or Lab by a table of 3³ colours.
+Profile of_table(cmsTagSignature tag, double version) {
+  Profile profile(cmsCreateProfilePlaceholder(nullptr), cmsCloseProfile);
+  cmsSetProfileVersion(profile.get(), version);
+  cmsSetDeviceClass(profile.get(), cmsSigDisplayClass);
+  cmsSetColorSpace(profile.get(), cmsSigRgbData);
+  cmsSetPCS(profile.get(), tag == cmsSigDToB1Tag ? cmsSigXYZData : cmsSigLabData);
+  const Pipeline pipeline(cmsPipelineAlloc(nullptr, 3, 3), cmsPipelineFree);
+  if (tag == cmsSigDToB1Tag) {
+    std::vector<cmsFloat32Number> table;
+    for (int i = 0; i < 27 * 3; ++i) table.push_back(static_cast<float>(i % 27) / 27);
+    cmsPipelineInsertStage(pipeline.get(), cmsAT_END, cmsStageAllocCLutFloat(nullptr, 3, 3, 3, table.data()));
+  } else {
+    std::vector<cmsUInt16Number> table;
+    for (int i = 0; i < 27 * 3; ++i) table.push_back(static_cast<cmsUInt16Number>(i * 800));
+    cmsPipelineInsertStage(pipeline.get(), cmsAT_END, cmsStageAllocToneCurves(nullptr, 3, nullptr));
+    cmsPipelineInsertStage(pipeline.get(), cmsAT_END, cmsStageAllocCLut16bit(nullptr, 3, 3, 3, table.data()));
+    cmsPipelineInsertStage(pipeline.get(), cmsAT_END, cmsStageAllocToneCurves(nullptr, 3, nullptr));
+  }
+  cmsWriteTag(profile.get(), tag, pipeline.get());
+  return profile;
+}
+
+Named icc_profiles() {
+  const cmsCIExyY white = {0.3457, 0.3585, 1};
+  const ToneCurve power(cmsBuildGamma(nullptr, 1.8), cmsFreeToneCurve);
+  const cmsFloat64Number srgb[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
+  const ToneCurve pieces(cmsBuildParametricToneCurve(nullptr, 4, srgb), cmsFreeToneCurve);
+  const cmsUInt16Number steps[4] = {0, 9000, 30000, 65535};
+  const ToneCurve table(cmsBuildTabulatedToneCurve16(nullptr, 4, steps), cmsFreeToneCurve);
+  return {{"srgb", saved({cmsCreate_sRGBProfile(), cmsCloseProfile})},
+          {"grey", saved({cmsCreateGrayProfile(&white, power.get()), cmsCloseProfile})},
+          {"power", saved(of_primaries(power))},
+          {"pieces", saved(of_primaries(pieces))},
+          {"table", saved(of_primaries(table))},
+          {"lut16", saved(of_table(cmsSigAToB0Tag, 2.1))},
+          {"lut_a_to_b", saved(of_table(cmsSigAToB0Tag, 4.3))},
+          {"elements", saved(of_table(cmsSigDToB1Tag, 4.3))}};
+}
+
+// ---------------------------------------------------------------------------------- Exif blocks and gain
+// maps
+
+Named exif_blocks() {
+  const std::string entry("\x12\x01\3\0\1\0\0\0\6\0\0\0", 12), end(4, '\0');
+  const std::string other("\x0f\x01\2\0\4\0\0\0abc\0", 12);
+  return {{"little", std::string("II*\0\x08\0\0\0\1\0", 10) + entry + end},
+          {"big", std::string("MM\0*\0\0\0\x08\0\1\x01\x12\0\3\0\0\0\1\0\3\0\0\0\0\0\0", 26)},
+          {"second", std::string("II*\0\x08\0\0\0\2\0", 10) + other + entry + end},
+          {"loop", std::string("II*\0\x08\0\0\0\1\0", 10) + other + std::string("\x08\0\0\0", 4)}};
+}
+
+std::string words(std::initializer_list<std::size_t> values) {
+  std::string text;
+  for (const std::size_t value : values) text += big_endian(value);
+  return text;
+}
+
+/// ISO 21496-1's bytes. Fractions: headrooms 0 and 3; then minimum 0, maximum 3, gamma 1, both offsets 0.
+Named gain_maps() {
+  const std::string version(4, '\0'), of_one = words({0, 1, 3, 1, 1, 1, 1, 64, 1, 64});
+  return {{"version", version},
+          {"one", version + '\x40' + words({0, 1, 3, 1}) + of_one},
+          {"three", version + '\xc0' + words({0, 1, 3, 1}) + of_one + of_one + of_one},
+          {"common", version + '\x48' + words({2, 0, 6, 0, 6, 2, 0, 0})},
+          {"zero", version + '\x40' + words({0, 1, 3, 1, 0, 0, 3, 0, 0, 0, 1, 64, 1, 64})}};
+}
+
+// ------------------------------------------------------------------------------------------ in JPEGs and
+// PNGs
+
+std::string with_marker(const std::string& jpeg, char marker, const std::string& body) {
+  const std::string segment = std::string("\xff") + marker + big_endian(body.size() + 2, 2) + body;
+  return jpeg.substr(0, 2) + segment + jpeg.substr(2);
+}
+
+void write_jpegs(const fs::path& folder) {
+  const std::string base = encoded(folder, "jpg", 17, 9), small = encoded(folder, "jpg", 5, 3);
+  for (const auto& [name, bytes] : exif_blocks())
+    save(folder / ("exif_" + name + ".jpg"), with_marker(base, '\xe1', std::string("Exif\0\0", 6) + bytes));
+  for (const auto& [name, bytes] : icc_profiles())
+    save(folder / ("icc_" + name + ".jpg"),
+         with_marker(base, '\xe2', std::string("ICC_PROFILE\0\1\1", 14) + bytes));
+  const std::string marker(io::kXmpMarker), iso("urn:iso:std:iso:ts:21496:-1\0", 28);
+  const std::string hdr = described("h:Version='1.0'", "");
+  for (const auto& [name, bytes] : xmp_packets()) {
+    const std::string packed = with_marker(base, '\xe1', marker + bytes);
+    save(folder / ("xmp_" + name + ".jpg"), packed);
+    save(folder / ("gains_" + name + ".jpg"),
+         with_marker(base, '\xe1', marker + hdr) + with_marker(small, '\xe1', marker + bytes));
+  }
+  for (const auto& [name, bytes] : gain_maps())
+    save(folder / ("iso_" + name + ".jpg"),
+         with_marker(base, '\xe2', iso + std::string(4, '\0')) + with_marker(small, '\xe2', iso + bytes));
+}
+
+std::string chunk(const std::string& name, const std::string& data) {
+  const std::string body = name + data;
+  const auto* bytes = reinterpret_cast<const Bytef*>(body.data());
+  return big_endian(data.size()) + body + big_endian(crc32(0, bytes, static_cast<uInt>(body.size())));
+}
+
+std::string deflated(const std::string& raw) {
+  std::string packed(compressBound(static_cast<uLong>(raw.size())), '\0');
+  auto size = static_cast<uLongf>(packed.size());
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()),
+           static_cast<uLong>(raw.size()));
+  packed.resize(size);
+  return packed;
+}
+
+void write_pngs(const fs::path& folder) {
+  constexpr std::size_t kAfterHeader = 8 + 25;
+  const std::string signature("\x89PNG\r\n\x1a\n");
+  const auto with = [&](int colour_type, const std::string& chunks) {
+    const std::size_t channels = colour_type == 2 ? 3 : 4;
+    const std::string header =
+        words({5, 3}) + std::string{'\x8', static_cast<char>(colour_type), '\0', '\0', '\0'};
+    std::string rows;
+    for (std::size_t y = 0; y < 3; ++y) rows += '\0' + std::string(5 * channels, static_cast<char>(60 * y));
+    const std::string all = signature + chunk("IHDR", header);
+    if (all.size() != kAfterHeader) throw std::runtime_error("a PNG's header has 13 bytes");
+    return all + chunks + chunk("IDAT", deflated(rows)) + chunk("IEND", "");
+  };
+  for (const auto& [name, bytes] : exif_blocks())
+    save(folder / ("exif_" + name + ".png"), with(2, chunk("eXIf", bytes)));
+  for (const auto& [name, bytes] : icc_profiles())
+    save(folder / ("icc_" + name + ".png"),
+         with(6, chunk("iCCP", std::string("a\0\0", 3) + deflated(bytes))));
+  for (const auto& [name, bytes] : xmp_packets())
+    save(folder / ("xmp_" + name + ".png"),
+         with(2, chunk("iTXt", io::kXmpKeyword + std::string(5, '\0') + bytes)));
+  for (const char transfer : {1, 4, 8, 13, 16, 18})
+    save(folder / ("cicp_" + std::to_string(transfer) + ".png"),
+         with(6, chunk("cICP", std::string{'\x9', transfer, '\0', '\1'})));
+  const std::string primaries = words({31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600});
+  save(folder / "chrm.png", with(6, chunk("gAMA", words({45455})) + chunk("cHRM", primaries)));
+  save(folder / "chrm_zero.png", with(2, chunk("gAMA", words({0})) + chunk("cHRM", std::string(32, '\0'))));
+}
+
+}  // namespace
+
+void write_metadata_seeds(const fs::path& root) {
+  for (const auto& [folder, seeds] : {std::pair{"xmp", xmp_packets()},
+                                      {"icc", icc_profiles()},
+                                      {"exif", exif_blocks()},
+                                      {"gain_map", gain_maps()}}) {
+    for (const auto& [name, bytes] : seeds) save(root / folder / name, bytes);
+  }
+  write_jpegs(root / "jpeg");
+  write_pngs(root / "png");
+  // The other half of the gain map's fuzzer: pictures one after the other.
+  fs::copy(root / "jpeg" / "iso_one.jpg", root / "gain_map" / "iso_one.jpg",
+           fs::copy_options::overwrite_existing);
+}
+
+}  // namespace welkin::fuzz
