@@ -141,10 +141,12 @@ IccProfile::IccProfile(std::span<const std::byte> bytes) : self_(std::make_uniqu
   self.profile.reset(
       cmsOpenProfileFromMemTHR(self.context.get(), bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
   if (self.profile == nullptr) self.fail("it is malformed");
-  const cmsColorSpaceSignature space = cmsGetColorSpace(self.profile.get());
-  if (space != cmsSigRgbData && space != cmsSigGrayData)
+  // From the header (ICC.1:2022, 7.2.8): Little CMS would give any number as an enumerator.
+  constexpr std::size_t kColourSpaceAt = 16;
+  const auto space = load<std::uint32_t>(&bytes[kColourSpaceAt], std::endian::big);
+  if (space != std::uint32_t{cmsSigRgbData} && space != std::uint32_t{cmsSigGrayData})
     throw Error(ErrorKind::unsupported, "it is not of grey or R G B");
-  self.channels = space == cmsSigGrayData ? 1 : 3;
+  self.channels = space == std::uint32_t{cmsSigGrayData} ? 1 : 3;
   self.name = description(self.profile.get());
   // Little CMS 2.14 doesn't know the tag: its signature, reserved zeros, and four code points.
   std::array<std::uint8_t, 12> tag{};

@@ -99,6 +99,15 @@ TEST(IccProfile, TablesLargerThanTheFileAreRefused) {
   EXPECT_EQ(kind_of_refusal(enlarged({cmsSigAToB0Tag, cmsSigAToB1Tag})), ErrorKind::too_large);
 }
 
+TEST(IccProfile, OtherColourSpacesAreRefused) {
+  for (const std::string space : {"CMYK", "Lab ", "\xfe\xff\xff\xff"}) {
+    Bytes bytes = unusual_profile();
+    const Bytes name = bytes_of(space);
+    std::copy(name.begin(), name.end(), bytes.begin() + 16);
+    EXPECT_EQ(kind_of_refusal(bytes), ErrorKind::unsupported) << space;
+  }
+}
+
 TEST(IccProfile, NanStaysNan) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const Bytes& bytes : {unusual_profile(), profile_with({cmsSigAToB0Tag}, table_pipeline())}) {
