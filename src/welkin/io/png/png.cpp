@@ -29,19 +29,24 @@ bool matches(std::span<const std::byte> bytes) {
   return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;
 }
 
-/// Throws unless whole chunks, as their lengths say, lead to an IEND. libpng would first allocate memory for
-/// a chunk of any length, and then find its bytes missing.
+/// Throws unless whole chunks, as their lengths say, lead past an IDAT to an IEND. libpng would first
+/// allocate memory for a chunk of any length, and then find its bytes missing.
 void check_chunks(const Source& source) {
   constexpr std::size_t kAround = 12;  // length, name and checksum
   const auto fail = [&](const char* cause, std::size_t at) {
     throw Error(ErrorKind::damaged, source.name, std::string(cause) + " (byte " + std::to_string(at) + ")");
   };
+  bool pixels = false;
   for (std::size_t at = sizeof kSignature;;) {
     const std::size_t left = source.bytes.size() - at;
     if (left < kAround) fail("ends early", source.bytes.size());
     const std::size_t length = load<std::uint32_t>(&source.bytes[at], std::endian::big);
     if (length > left - kAround) fail("ends early: a chunk passes the end of the file", at);
-    if (std::memcmp(&source.bytes[at + 4], "IEND", 4) == 0) return;
+    if (std::memcmp(&source.bytes[at + 4], "IDAT", 4) == 0) pixels = true;
+    if (std::memcmp(&source.bytes[at + 4], "IEND", 4) == 0) {
+      if (!pixels) fail("holds no pixels: there is no IDAT chunk", at);
+      return;
+    }
     at += kAround + length;
   }
 }
