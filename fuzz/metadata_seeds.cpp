@@ -254,7 +254,7 @@ void write_pngs(const fs::path& folder) {
   for (const auto& [name, bytes] : xmp_packets())
     save(folder / ("xmp_" + name + ".png"),
          with(2, chunk("iTXt", io::kXmpKeyword + std::string(5, '\0') + bytes)));
-  for (const char transfer : {1, 4, 8, 13, 16, 18})
+  for (const char transfer : {'\1', '\4', '\x8', '\xd', '\x10', '\x12'})
     save(folder / ("cicp_" + std::to_string(transfer) + ".png"),
          with(6, chunk("cICP", std::string{'\x9', transfer, '\0', '\1'})));
   const std::string primaries = words({31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600});
