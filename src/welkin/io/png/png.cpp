@@ -51,6 +51,30 @@ void check_chunks(const Source& source) {
   }
 }
 
+struct Chunk {
+  std::string_view name;
+  std::span<const std::byte> data;
+  bool after_pixels;
+};
+
+/// Calls visit(chunk) for all but the pixels' up to IEND, of a file that check_chunks found sound.
+template <class Visit>
+void each_chunk(std::span<const std::byte> bytes, const Visit& visit) {
+  constexpr std::size_t kDataAt = 8, kAround = 12;
+  bool pixels = false;
+  for (std::size_t at = sizeof kSignature;;) {
+    const std::size_t length = load<std::uint32_t>(&bytes[at], std::endian::big);
+    const std::string_view name(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
+    if (name == "IEND") return;
+    if (name == "IDAT") {
+      pixels = true;
+    } else {
+      visit(Chunk{name, bytes.subspan(at + kDataAt, length), pixels});
+    }
+    at += kAround + length;
+  }
+}
+
 /// tEXt is Latin-1; attributes are UTF-8.
 std::string from_latin1(std::string_view text) {
   std::string utf8;
@@ -166,8 +190,8 @@ class PngReader : public FormatReader {
     if (interlaced_) info_.notes.push_back("interlaced");
     read_colour(png, info);
     read_text(png, info);
-    read_orientation(png, info);
-
+    read_late_chunks();
+    warn_of_dropped(png, info);
     decoder.expand();
     static const std::vector<std::string> names[] = {
         {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
@@ -269,11 +293,51 @@ class PngReader : public FormatReader {
     return {};
   }
 
-  void read_orientation(png_structp png, png_infop info) {
-    png_uint_32 size = 0;
-    png_bytep exif = nullptr;
-    if (png_get_eXIf_1(png, info, &size, &exif) != 0)
-      declared_.orientation = exif_orientation(std::as_bytes(std::span(exif, size))).value_or(1);
+  /// Those that many programs put after the pixels, where libpng comes only with them.
+  void read_late_chunks() {
+    each_chunk(source_.bytes, [&](const Chunk& chunk) {
+      if (chunk.name == "eXIf") declared_.orientation = exif_orientation(chunk.data).value_or(1);
+      if (chunk.name == "iTXt" && chunk.after_pixels && declared_.xmp.empty()) read_xmp(chunk.data);
+    });
+    if (late_xmp_left_out_)
+      info_.warnings.push_back("its XMP after the pixels is compressed or malformed; it is not read");
+  }
+
+  /// Keyword, 0, whether compressed, method, language, 0, translated keyword, 0, text.
+  void read_xmp(std::span<const std::byte> data) {
+    std::string_view text(reinterpret_cast<const char*>(data.data()), data.size());
+    const std::string start = std::string(kXmpKeyword) + '\0';
+    if (!text.starts_with(start)) return;
+    text.remove_prefix(start.size());
+    const std::size_t language = text.size() < 2 ? text.npos : text.find('\0', 2);
+    const std::size_t keyword = language == text.npos ? text.npos : text.find('\0', language + 1);
+    if (keyword == text.npos || text[0] != 0) {
+      late_xmp_left_out_ = true;
+    } else {
+      declared_.xmp = text.substr(keyword + 1);
+    }
+  }
+
+  bool has_chunk(std::string_view name) const {
+    bool found = false;
+    each_chunk(source_.bytes,
+               [&](const Chunk& chunk) { found = found || (chunk.name == name && !chunk.after_pixels); });
+    return found;
+  }
+
+  /// libpng drops chunks that it finds malformed or at odds with others, of colour all at once.
+  void warn_of_dropped(png_structp png, png_infop info) {
+    const auto warn = [&](const char* name, png_uint_32 flag, const char* assumed) {
+      if (has_chunk(name) && png_get_valid(png, info, flag) == 0)
+        info_.warnings.push_back("its " + std::string(name) + " chunk is malformed, or another is; " +
+                                 assumed);
+    };
+    warn("tRNS", PNG_INFO_tRNS, "no colour is transparent");
+    if (!read_cicp(png, info).empty()) return;
+    if (has_chunk("iCCP")) return warn("iCCP", PNG_INFO_iCCP, "sRGB is assumed");
+    if (has_chunk("sRGB")) return warn("sRGB", PNG_INFO_sRGB, "sRGB is assumed all the same");
+    warn("gAMA", PNG_INFO_gAMA, "sRGB is assumed");
+    warn("cHRM", PNG_INFO_cHRM, "BT.709's primaries are assumed");
   }
 
   void read_text(png_structp png, png_infop info) {
@@ -297,6 +361,7 @@ class PngReader : public FormatReader {
 
   Source source_;
   bool interlaced_ = false;
+  bool late_xmp_left_out_ = false;
 };
 
 }  // namespace

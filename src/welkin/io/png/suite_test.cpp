@@ -192,6 +192,42 @@ TEST(PngSuite, EveryGammaIsUndone) {
   }
 }
 
+TEST(PngSuite, ChunksThatAreNotObeyedAreTold) {
+  const auto warnings = [](int colour_type, const std::string& chunks) {
+    const Values row = colour_type == kColour ? Values{0, 9, 9, 9} : Values{0, 9, 9, 9, 255};
+    return info_of(picture(1, 1, 8, colour_type, row, chunks)).warnings;
+  };
+  const std::string zeros(32, '\0'), linear = chunk("gAMA", big_endian(100000));
+  EXPECT_TRUE(warnings(kColour, linear).empty());
+  EXPECT_EQ(warnings(kColour, chunk("cHRM", zeros)).size(), 1u);
+  EXPECT_EQ(warnings(kColour, chunk("gAMA", big_endian(0))).size(), 1u);
+  EXPECT_EQ(warnings(kColour, chunk("iCCP", std::string("a\0\0", 3) + deflated("nothing"))).size(), 1u);
+  EXPECT_EQ(warnings(kColourAlpha, chunk("tRNS", "abcdef")).size(), 1u);
+  EXPECT_TRUE(
+      warnings(kColour, chunk("sRGB", std::string(1, '\0')) + chunk("gAMA", big_endian(45455))).empty());
+}
+
+TEST(PngSuite, WhatLiesAfterThePixelsIsRead) {
+  const std::string exif("II*\0\x08\0\0\0\1\0\x12\1\3\0\1\0\0\0\6\0\0\0\0\0\0\0", 26);
+  const std::string packet =
+      "<a><p:b xmlns:p='http://ns.google.com/photos/1.0/panorama/' p:ProjectionType='equirectangular'/></a>";
+  const auto late = [&](const std::string& chunks) {
+    const Bytes before = made({kColour, 8}, 3, 2, false), inserted = bytes_of(chunks);
+    Bytes bytes = before;
+    bytes.insert(bytes.end() - 12, inserted.begin(), inserted.end());
+    return bytes;
+  };
+  const FileInfo turned = info_of(late(chunk("eXIf", exif)));
+  EXPECT_EQ(turned.parts[0].width, 2);
+  EXPECT_EQ(turned.parts[0].height, 3);
+  const std::string keyword = "XML:com.adobe.xmp";
+  const FileInfo info = info_of(late(chunk("iTXt", keyword + std::string(5, '\0') + packet)));
+  ASSERT_TRUE(info.panorama);
+  EXPECT_EQ(info.panorama->projection, "equirectangular");
+  EXPECT_EQ(info_of(late(chunk("iTXt", keyword + std::string("\0\1\0\0\0", 5) + "?"))).warnings.size(), 1u);
+  EXPECT_EQ(info_of(late(chunk("iTXt", keyword + std::string(1, '\0')))).warnings.size(), 1u);
+}
+
 TEST(PngSuite, DamageIsNamed) {
   const Kind kind{kColour, 8};
   const Bytes sound = made(kind, 4, 4, false);
