@@ -236,7 +236,7 @@ std::string deflated(const std::string& raw) {
 void write_pngs(const fs::path& folder) {
   constexpr std::size_t kAfterHeader = 8 + 25;
   const std::string signature("\x89PNG\r\n\x1a\n");
-  const auto with = [&](int colour_type, const std::string& chunks) {
+  const auto with = [&](int colour_type, const std::string& chunks, const std::string& late = "") {
     const std::size_t channels = colour_type == 2 ? 3 : 4;
     const std::string header =
         words({5, 3}) + std::string{'\x8', static_cast<char>(colour_type), '\0', '\0', '\0'};
@@ -244,10 +244,12 @@ void write_pngs(const fs::path& folder) {
     for (std::size_t y = 0; y < 3; ++y) rows += '\0' + std::string(5 * channels, static_cast<char>(60 * y));
     const std::string all = signature + chunk("IHDR", header);
     if (all.size() != kAfterHeader) throw std::runtime_error("a PNG's header has 13 bytes");
-    return all + chunks + chunk("IDAT", deflated(rows)) + chunk("IEND", "");
+    return all + chunks + chunk("IDAT", deflated(rows)) + late + chunk("IEND", "");
   };
   for (const auto& [name, bytes] : exif_blocks())
     save(folder / ("exif_" + name + ".png"), with(2, chunk("eXIf", bytes)));
+  const std::string xmp = chunk("iTXt", io::kXmpKeyword + std::string(5, '\0') + xmp_packets()[0].second);
+  save(folder / "late.png", with(2, "", chunk("eXIf", exif_blocks()[0].second) + xmp));
   for (const auto& [name, bytes] : icc_profiles())
     save(folder / ("icc_" + name + ".png"),
          with(6, chunk("iCCP", std::string("a\0\0", 3) + deflated(bytes))));
