@@ -31,10 +31,11 @@ constexpr std::size_t kLargest = std::size_t{16} << 20;
 
 /// All that Little CMS may ask for while a profile is opened, freed or not: tables that a profile claims, or
 /// names over and over, are made before their bytes are missed.
-constexpr std::uint64_t kMostMemory = std::uint64_t{256} << 20;
+constexpr std::uint64_t kMostMemory = std::uint64_t{128} << 20;
 
-/// Steps from values to colours, each of which costs time at each pixel. Real profiles have up to five.
-constexpr cmsUInt32Number kMostSteps = 64;
+/// Steps from values to colours and pieces of their curves, each of which costs time at each pixel. Real
+/// profiles have a few.
+constexpr std::size_t kMostPieces = 1024;
 
 /// The tags of tables, in the order of which the first serves, before a matrix and curves.
 constexpr cmsTagSignature kTables[] = {cmsSigDToB1Tag, cmsSigAToB1Tag, cmsSigAToB0Tag};
@@ -78,6 +79,25 @@ Profile linear_bt709(cmsContext context) {
   return {cmsCreateRGBProfileTHR(context, &white, &primaries, curves), cmsCloseProfile};
 }
 
+/// How many elements and pieces of curves a tag of type multiProcessElementsType has (ICC.1:2022, 10.16),
+/// each element and curve as often as it is named; of no other type any. Counting stops past `most`.
+std::size_t pieces_of(std::span<const std::byte> tag, std::size_t most) {
+  constexpr std::uint32_t kElements = 0x6d706574, kCurveSet = 0x63767374;  // `mpet`, `cvst`
+  const auto word = [&](std::size_t at) {
+    return at + 4 > tag.size() ? 0 : load<std::uint32_t>(&tag[at], std::endian::big);
+  };
+  const auto half_word = [&](std::size_t at) { return word(at) >> 16; };
+  if (word(0) != kElements) return 0;
+  std::size_t pieces = 0;
+  for (std::size_t i = 0; i < word(12) && pieces <= most; ++i, ++pieces) {
+    const std::size_t element = word(16 + 8 * i);
+    if (word(element) != kCurveSet) continue;
+    for (std::size_t c = 0; c < half_word(element + 8) && pieces <= most; ++c)
+      pieces += 1 + half_word(element + word(element + 12 + 8 * c) + 8);
+  }
+  return pieces;
+}
+
 std::string description(cmsHPROFILE profile) {
   char text[128] = "";
   cmsGetProfileInfoASCII(profile, cmsInfoDescription, "en", "US", text, sizeof text);
@@ -103,14 +123,14 @@ struct IccProfile::Implementation {
     throw Error(ErrorKind::damaged, cause);
   }
 
-  void check_steps() const {
-    for (const cmsTagSignature tag : kTables) {
-      if (cmsIsTag(profile.get(), tag) == 0) continue;
-      const auto* const steps = static_cast<const cmsPipeline*>(cmsReadTag(profile.get(), tag));
-      if (steps != nullptr && cmsPipelineStageCount(steps) > kMostSteps)
-        throw Error(ErrorKind::unsupported,
-                    "it has more than " + std::to_string(kMostSteps) + " steps from values to colours");
-    }
+  /// Before Little CMS reads them, which takes long too.
+  void check_pieces() const {
+    std::vector<std::byte> tag(cmsReadRawTag(profile.get(), cmsSigDToB1Tag, nullptr, 0));
+    tag.resize(
+        cmsReadRawTag(profile.get(), cmsSigDToB1Tag, tag.data(), static_cast<cmsUInt32Number>(tag.size())));
+    if (pieces_of(tag, kMostPieces) > kMostPieces)
+      throw Error(ErrorKind::unsupported,
+                  "its curves have more than " + std::to_string(kMostPieces) + " pieces and steps");
   }
 
   /// Throws unless whole values become colours.
@@ -153,7 +173,7 @@ IccProfile::IccProfile(std::span<const std::byte> bytes) : self_(std::make_uniqu
   constexpr auto kCicp = static_cast<cmsTagSignature>(0x63696370);
   if (cmsReadRawTag(self.profile.get(), kCicp, tag.data(), tag.size()) == tag.size())
     self.code_points = CodePoints{tag[8], tag[9]};
-  self.check_steps();
+  self.check_pieces();
   const Profile target = linear_bt709(self.context.get());
   if (target == nullptr) self.fail("it is malformed");
   self.transform.reset(cmsCreateTransformTHR(

@@ -65,12 +65,44 @@ TEST(IccProfile, NumbersThatMakeNoColoursAreRefused) {
 }
 
 TEST(IccProfile, EndlessStepsAreRefused) {
-  std::vector<cmsStage*> stages;
-  for (int i = 0; i < 64; ++i) stages.push_back(matrix_stage(1));
-  EXPECT_EQ(IccProfile(profile_with({cmsSigDToB1Tag}, pipeline_of(stages))).channels(), 3);
-  stages.clear();
-  for (int i = 0; i < 65; ++i) stages.push_back(matrix_stage(1));
-  EXPECT_EQ(kind_of_refusal(profile_with({cmsSigDToB1Tag}, pipeline_of(stages))), ErrorKind::unsupported);
+  for (const int count : {1024, 1025}) {
+    std::vector<cmsStage*> stages;
+    for (int i = 0; i < count; ++i) stages.push_back(matrix_stage(1));
+    const Bytes bytes = profile_with({cmsSigDToB1Tag}, pipeline_of(stages));
+    if (count == 1024)
+      EXPECT_EQ(IccProfile(bytes).channels(), 3);
+    else
+      EXPECT_EQ(kind_of_refusal(bytes), ErrorKind::unsupported);
+  }
+}
+
+/// A curve of that many pieces, each a straight line.
+cmsToneCurve* curve_of(int pieces) {
+  std::vector<cmsCurveSegment> segments(static_cast<std::size_t>(pieces));
+  for (int i = 0; i < pieces; ++i) {
+    cmsCurveSegment& segment = segments[static_cast<std::size_t>(i)];
+    segment = {};
+    segment.x0 = i == 0 ? -1e22f : static_cast<float>(i) / static_cast<float>(pieces);
+    segment.x1 = i + 1 == pieces ? 1e22f : static_cast<float>(i + 1) / static_cast<float>(pieces);
+    segment.Type = 6;
+    segment.Params[0] = segment.Params[1] = 1;
+  }
+  return cmsBuildSegmentedToneCurve(nullptr, static_cast<cmsUInt32Number>(pieces), segments.data());
+}
+
+TEST(IccProfile, EndlessCurvesAreRefused) {
+  // One step, three curves and their pieces.
+  for (const int pieces : {340, 341}) {
+    cmsToneCurve* const curve = curve_of(pieces);
+    cmsToneCurve* curves[3] = {curve, curve, curve};
+    const Bytes bytes =
+        profile_with({cmsSigDToB1Tag}, pipeline_of({cmsStageAllocToneCurves(nullptr, 3, curves)}));
+    cmsFreeToneCurve(curve);
+    if (pieces == 340)
+      EXPECT_EQ(IccProfile(bytes).channels(), 3);
+    else
+      EXPECT_EQ(kind_of_refusal(bytes), ErrorKind::unsupported);
+  }
 }
 
 Pipeline table_pipeline() {
@@ -80,23 +112,21 @@ Pipeline table_pipeline() {
 }
 
 TEST(IccProfile, TablesLargerThanTheFileAreRefused) {
-  // The colours along each side, for sixteen sides, and the bytes of each number: 255³ colours of 6 bytes.
-  const Bytes sides = bytes_of(std::string("\2\2\2\0\0\0\0\0\0\0\0\0\0\0\0\0\2\0\0\0", 20));
-  const auto enlarged = [&](const std::vector<cmsTagSignature>& tags) {
-    Bytes bytes = profile_with(tags, table_pipeline());
+  // The colours along each of up to sixteen sides; changed to 255³ colours.
+  const Bytes sides = bytes_of(std::string("\2\2\2\0\0\0\0\0\0\0\0\0\0\0\0\0", 16));
+  const auto enlarged = [&](Bytes bytes) {
     EXPECT_EQ(IccProfile(bytes).channels(), 3);
-    std::size_t count = 0;
-    for (auto at = bytes.begin();; ++count) {
-      at = std::search(at, bytes.end(), sides.begin(), sides.end());
-      if (at == bytes.end()) break;
-      at = std::fill_n(at, 3, std::byte{255});
-    }
-    EXPECT_EQ(count, tags.size());
+    const auto at = std::search(bytes.begin(), bytes.end(), sides.begin(), sides.end());
+    EXPECT_NE(at, bytes.end());
+    std::fill_n(at, 3, std::byte{255});
     return bytes;
   };
-  // One is missed at the end of the file; two, one of them tried again, would take too much memory before.
-  EXPECT_EQ(kind_of_refusal(enlarged({cmsSigAToB0Tag})), ErrorKind::damaged);
-  EXPECT_EQ(kind_of_refusal(enlarged({cmsSigAToB0Tag, cmsSigAToB1Tag})), ErrorKind::too_large);
+  // Of 6 bytes each: missed at the end of the file. Of 12: too much to begin with.
+  EXPECT_EQ(kind_of_refusal(enlarged(profile_with({cmsSigAToB0Tag}, table_pipeline()))), ErrorKind::damaged);
+  const std::vector<float> colours(24, 0.5f);
+  const Bytes floats =
+      profile_with({cmsSigDToB1Tag}, pipeline_of({cmsStageAllocCLutFloat(nullptr, 2, 3, 3, colours.data())}));
+  EXPECT_EQ(kind_of_refusal(enlarged(floats)), ErrorKind::too_large);
 }
 
 TEST(IccProfile, OtherColourSpacesAreRefused) {
