@@ -9,6 +9,7 @@
 #include "welkin/map_file/chain_attributes.h"
 #include "welkin/map_file/chain_file.h"
 #include "welkin/map_file/eyes.h"
+#include "welkin/map_file/face_names.h"
 #include "welkin/map_file/map_file_job.h"
 #include "welkin/map_file/panorama.h"
 
@@ -109,7 +110,7 @@ Declaration declaration_for(const fs::path& path, const MapFileInfo& info, const
                             ChartSize picture, std::vector<std::string>& warnings) {
   const io::FileInfo& file = info.image;
   const io::PartInfo& part = file.parts[info.picture];
-  const bool pattern = is_pattern(path);
+  const bool pattern = is_pattern_to_read(path);
   if (options.shape) {
     std::string shape = *options.shape;
     const auto several_charts = [&] { return parse_map_shape(shape).parameterization.charts() > 1; };
@@ -133,7 +134,10 @@ Declaration declaration_for(const fs::path& path, const MapFileInfo& info, const
   }
   if (const auto guessed = guess(file, picture, pattern))
     return {guessed->first, options.faces, guessed->second};
-  return {"", options.faces, "the file declares no parameterization, and its size suggests none"};
+  const fs::path six = picture.width == picture.height ? pattern_of_face(path) : fs::path();
+  return {"", options.faces,
+          "the file declares no parameterization, and its size suggests none" +
+              (six.empty() ? "" : "; it may be a face of " + six.string())};
 }
 
 /// Width over height of one eye's picture, were it of the shape that is asked for, or declared, or a
@@ -170,13 +174,14 @@ void check_pictures(const fs::path& path, const io::FileInfo& file, const MapSha
                     std::optional<std::size_t> part) {
   const LayoutKind kind = shape.layout.kind;
   const std::string name = path.string();
-  if (kind == LayoutKind::files && !is_pattern(path)) {
+  if (kind == LayoutKind::files && !is_pattern_to_read(path)) {
     const std::vector<std::string> charts = chart_names(shape.parameterization);
-    throw Error(
-        ErrorKind::bad_request, name,
-        shape.text() + " is in several files: put %s in the name, for " + charts[0] + ", " + charts[1] + "…");
+    const fs::path six = pattern_of_face(path);
+    throw Error(ErrorKind::bad_request, name,
+                shape.text() + " is in several files: put %s in the name, for " + charts[0] + ", " +
+                    charts[1] + "…" + (six.empty() ? "" : ": " + six.string()));
   }
-  if (kind != LayoutKind::files && is_pattern(path)) {
+  if (kind != LayoutKind::files && is_pattern_to_read(path)) {
     throw Error(ErrorKind::bad_request, name,
                 "%s stands for a face's name, but " + shape.text() + " is in one file");
   }

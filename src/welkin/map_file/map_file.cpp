@@ -1,10 +1,12 @@
 #include "welkin/map_file/map_file.h"
 
 #include <algorithm>
+#include <system_error>
 
 #include "welkin/base/error.h"
 #include "welkin/map/borders.h"
 #include "welkin/map_file/eyes.h"
+#include "welkin/map_file/face_names.h"
 #include "welkin/map_file/joining.h"
 #include "welkin/map_file/map_file_job.h"
 
@@ -14,17 +16,28 @@ namespace {
 namespace fs = std::filesystem;
 using namespace map_file;
 
-/// Opens the file, or the first of the files of a pattern.
-std::unique_ptr<io::Reader> open_first(const fs::path& path, const ReadMapOptions& options) {
-  if (!is_pattern(path)) return io::open(path, options.image);
-  // What the charts are called depends on the shape; without one there may be faces of a cube, or numbered
-  // charts.
-  if (options.shape) {
-    return io::open(chart_path(path, chart_names(parse_map_shape(*options.shape).parameterization).front()),
-                    options.image);
+/// The names of a cube's faces; none where the path is one file's, or its charts are numbered.
+std::vector<std::string> find_names(const fs::path& path, const ReadMapOptions& options) {
+  if (!is_pattern_to_read(path)) return {};
+  if (options.shape && !parse_map_shape(*options.shape).parameterization.traits().cube_faces) return {};
+  try {
+    const FaceNames& found = find_face_names(path);
+    return {found.faces.begin(), found.faces.end()};
+  } catch (const Error&) {
+    // Without a shape these may be numbered charts, fewer than a cube has.
+    std::error_code unknown;
+    if (options.shape || !fs::exists(chart_path(path, "0"), unknown) ||
+        fs::exists(chart_path(path, "px"), unknown))
+      throw;
+    return {};
   }
-  const bool numbered = !fs::exists(chart_path(path, "px")) && fs::exists(chart_path(path, "0"));
-  return io::open(chart_path(path, numbered ? "0" : "px"), options.image);
+}
+
+/// Opens the file, or the first of the files of a pattern.
+std::unique_ptr<io::Reader> open_first(const fs::path& path, const std::vector<std::string>& face_names,
+                                       const ReadMapOptions& options) {
+  if (!is_pattern_to_read(path)) return io::open(path, options.image);
+  return io::open(chart_path(path, face_names.empty() ? "0" : face_names.front()), options.image);
 }
 
 }  // namespace
@@ -32,20 +45,40 @@ std::unique_ptr<io::Reader> open_first(const fs::path& path, const ReadMapOption
 MapReader::MapReader(const fs::path& path, const ReadMapOptions& options)
     : path_(path),
       options_(options),
-      reader_(open_first(path, options)),
-      info_(inspect(path, reader_->info(), options)) {
+      face_names_(find_names(path, options)),
+      reader_(open_first(path, face_names_, options)),
+      info_(inspected(options)) {
   if (options.join_faces) join_faces();
 }
 
 MapReader::MapReader(std::span<const std::byte> bytes, const std::string& name, const ReadMapOptions& options)
     : path_(name), options_(options), reader_(io::open(bytes, name, options.image)) {
   require(!is_pattern(path_), "bytes in memory are one file: their name cannot have a %s");
-  info_ = inspect(path_, reader_->info(), options);
+  info_ = inspected(options);
   if (options.join_faces) join_faces();
 }
 
+MapFileInfo MapReader::inspected(const ReadMapOptions& options) const {
+  MapFileInfo info = inspect(path_, reader_->info(), options);
+  if (face_names_.empty() || !info.shape || !info.shape->parameterization.traits().cube_faces) return info;
+  const FaceNames& native = known_face_names().front();
+  if (std::equal(face_names_.begin(), face_names_.end(), native.faces.begin())) return info;
+  const auto names =
+      std::find_if(known_face_names().begin(), known_face_names().end(), [this](const FaceNames& each) {
+        return std::equal(each.faces.begin(), each.faces.end(), face_names_.begin(), face_names_.end());
+      });
+  const std::string text = "the faces are called " + names->text() + ": taken for +X −X +Y −Y +Z −Z";
+  (names->axes ? info.image.notes : info.image.warnings).push_back(text);
+  return info;
+}
+
+std::vector<std::string> MapReader::file_names() const {
+  const sphere::AnyParameterization& p = shape().parameterization;
+  return p.traits().cube_faces && !face_names_.empty() ? face_names_ : chart_names(p);
+}
+
 void MapReader::inspect_with(ReadMapOptions options) {
-  info_ = inspect(path_, reader_->info(), options);
+  info_ = inspected(options);
   info_.image.warnings.insert(info_.image.warnings.end(), joining_.begin(), joining_.end());
   options_ = std::move(options);
 }
@@ -131,9 +164,11 @@ LoadedMap read_map(std::span<const std::byte> bytes, const std::string& name, co
 const MapShape& MapReader::shape() const {
   if (info_.shape) return *info_.shape;
   const io::PartInfo& part = info_.image.parts[info_.picture];
+  const fs::path six = part.width == part.height ? pattern_of_face(path_) : fs::path();
   throw Error(ErrorKind::bad_request, path_.string(),
               "cannot tell which parameterization " + std::to_string(part.width) + "×" +
-                  std::to_string(part.height) + " is");
+                  std::to_string(part.height) + " is" +
+                  (six.empty() ? "" : ": it may be one of six faces, which " + six.string() + " reads"));
 }
 
 Map MapReader::read() {
@@ -176,7 +211,7 @@ Map MapReader::read() {
   };
   switch (layout.kind) {
     case LayoutKind::files: {
-      const std::vector<std::string> names = chart_names(p);
+      const std::vector<std::string> names = file_names();
       for (std::size_t i = 0; i < layout.cells.size(); ++i) {
         const fs::path file = chart_path(path_, names[i]);
         const auto reader = io::open(file, options.image);

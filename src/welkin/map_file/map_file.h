@@ -80,9 +80,11 @@ struct MapFileInfo {
 };
 
 /// A map's file, opened once: it may be a pipe. `path` contains `%s` when the charts are in files of their
-/// own; the first of these is opened, the others when they are read. Members throw Error: (not_found, denied,
-/// damaged, unsupported, too_large…) files that can't be read, (bad_request) shapes and levels that don't
-/// exist, (mismatch) sizes that don't fit the shape. One thread at a time for each reader.
+/// own, unless a file is called so; the first of these is opened, the others when they are read. The `%s`
+/// stands for `px`, `nx`…, or what other tools call the faces of a cube; or for the charts' numbers. Members
+/// throw Error: (not_found, denied, damaged, unsupported, too_large…) files that can't be read, (bad_request)
+/// shapes and levels that don't exist, (mismatch) sizes that don't fit the shape. One thread at a time for
+/// each reader.
 class WELKIN_API MapReader {
  public:
   /// Opens the file and finds its shape; no pixel is decoded.
@@ -114,11 +116,16 @@ class WELKIN_API MapReader {
   Map read(int level);
 
  private:
+  /// What the file holds, read in this way.
+  MapFileInfo inspected(const ReadMapOptions& options) const;
+  /// What `%s` stands for.
+  std::vector<std::string> file_names() const;
   void inspect_with(ReadMapOptions options);
   void join_faces();
 
   std::filesystem::path path_;
   ReadMapOptions options_;
+  std::vector<std::string> face_names_;  ///< of the files of a cube's faces, as they were found
   std::unique_ptr<io::Reader> reader_;
   MapFileInfo info_;
   std::vector<std::string> joining_;  ///< what there is to tell of how faces join
@@ -156,7 +163,8 @@ WELKIN_API MapShape parse_map_shape_for(const std::filesystem::path& path, std::
 /// but is the default_layout where one of the files is a texture and the other isn't.
 WELKIN_API MapShape shape_for_copy(const MapFileInfo& from, const std::filesystem::path& to, int levels = 1);
 
-/// Throws Error, naming the path, when it has a `%s` and the layout is of one file, or the other way round.
+/// For a file to write: throws Error, naming the path, when it has a `%s` and the layout is of one file, or
+/// the other way round. Any other `%` is a letter like others.
 WELKIN_API void check_face_pattern(const std::filesystem::path& path, const Layout& layout);
 
 /// The files that a map is written to: one, or one for each chart where `path` has a `%s`.

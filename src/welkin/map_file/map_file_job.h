@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -28,7 +29,7 @@ inline constexpr const char* kByEnvmap = "declared by the envmap attribute";
 /// MapFileInfo::reason of a shape that FileInfo::panorama declares.
 inline constexpr const char* kByPanorama = "declared by the file's panorama metadata";
 
-/// The file of one chart: `%s` replaced by the chart's name.
+/// The file of one chart: the first `%s` replaced by the chart's name.
 inline std::filesystem::path chart_path(const std::filesystem::path& pattern, const std::string& chart) {
   std::string text = pattern.string();
   text.replace(text.find("%s"), 2, chart);
@@ -37,6 +38,12 @@ inline std::filesystem::path chart_path(const std::filesystem::path& pattern, co
 
 inline bool is_pattern(const std::filesystem::path& path) {
   return path.string().find("%s") != std::string::npos;
+}
+
+/// Whether several files are read: a file that is called so is one.
+inline bool is_pattern_to_read(const std::filesystem::path& path) {
+  std::error_code unknown;
+  return is_pattern(path) && !std::filesystem::exists(path, unknown);
 }
 
 inline std::string text_of(const Matrix3& m) {

@@ -109,10 +109,10 @@ class Pictures {
 
 void check_face_pattern(const fs::path& path, const Layout& layout) {
   if (is_pattern(path) == (layout.kind == LayoutKind::files)) return;
-  throw Error(
-      ErrorKind::bad_request, path.string(),
-      (is_pattern(path) ? "%s stands for a face's name: write to :faces, as in cube:faces"
-                        : "several files are written: put %s in the name, where the face's name goes"));
+  throw Error(ErrorKind::bad_request, path.string(),
+              (is_pattern(path)
+                   ? "%s stands for a face's name: write to :faces, as in cube:faces, or to a name without it"
+                   : "several files are written: put %s in the name, where the face's name goes"));
 }
 
 bool holds_levels(const fs::path& path) {
