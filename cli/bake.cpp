@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "bake_levels.h"
 #include "bake_report.h"
@@ -47,6 +48,11 @@ class Clock {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// As graphics cards name them.
+std::vector<std::string> texel_formats() {
+  return {"rgba32f", "rgba16f", "rgb9e5", "r11g11b10"};
+}
 
 /// `0.001`, `0.1%` or `0.1 %`.
 double parse_tolerance(const std::string& text) {
@@ -145,11 +151,15 @@ void add_bake(CLI::App& app) {
   auto bake = std::make_shared<Bake>();
   CLI::App* command =
       app.add_subcommand("bake", "Filter a map with a lobe, for lighting: a chain of levels, or one map");
-  command->add_option("IN", bake->in, "Map to read; %s in the name stands for a face's name (px, nx…)")
+  command
+      ->add_option("IN", bake->in,
+                   "Map to read; %s in the name stands for a face's name (px, nx…); - is standard input")
       ->required();
   command
-      ->add_option("OUT", bake->out,
-                   "File to write; its extension names the format: ktx2 or exr for a chain, any for one map")
+      ->add_option(
+          "OUT", bake->out,
+          "File to write; its extension names the format: ktx2 or exr for a chain, any for one map; - is "
+          "standard output, see --format")
       ->required();
   bake->made.add(*command);
   command
@@ -162,8 +172,15 @@ void add_bake(CLI::App& app) {
                  "energy; --verify alone: 64")
       ->type_name("[=N]")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--format", bake->format, "Stored texels: rgba32f, rgba16f, rgb9e5, r11g11b10")
-      ->check(CLI::IsMember({"rgba32f", "rgba16f", "rgb9e5", "r11g11b10"}));
+  std::vector<std::string> formats = texel_formats();
+  for (const std::string& extension : io::writable_extensions()) formats.push_back(extension);
+  command
+      ->add_option(
+          "--format", bake->format,
+          "Stored texels: rgba32f, rgba16f, rgb9e5, r11g11b10; or of standard output, where OUT is -, "
+          "the format: ktx2, exr…, and --type says what is stored")
+      ->check(CLI::IsMember(formats))
+      ->option_text("TEXT");
   command
       ->add_option("--normalisation", bake->normalisation,
                    "average: a constant map is unchanged; integral: times the lobe's integral, of lambert "
@@ -186,7 +203,13 @@ void add_bake(CLI::App& app) {
   bake->read.add(*command);
   bake->read.add_level(*command, "Level of the input to take. Default: the finest");
   bake->write.add(*command);
-  command->callback([bake] { bake->run(); });
+  command->callback([bake] {
+    const std::vector<std::string> texels = texel_formats();
+    const bool stored = std::count(texels.begin(), texels.end(), bake->format) > 0;
+    bake->out = output_path(bake->out, stored ? "" : std::exchange(bake->format, ""));
+    bake->in = input_path(bake->in);
+    bake->run();
+  });
 }
 
 }  // namespace welkin::cli

@@ -12,6 +12,7 @@
 #include "progress.h"
 #include "welkin/base/error.h"
 #include "welkin/io/output_file.h"
+#include "welkin/io/process.h"
 #include "welkin/sphere/convention.h"
 
 namespace welkin::cli {
@@ -256,6 +257,32 @@ WriteMapOptions WriteFlags::parse() const {
     options.image.type = parse_option("--type", [&] { return io::pixel_type_from_name(type); });
   }
   return options;
+}
+
+void add_format(CLI::App& command, std::string& format) {
+  command.add_option("--format", format,
+                     "Format of what is written to standard output, where OUT is -: exr, png…");
+}
+
+std::string output_path(const std::string& out, const std::string& format) {
+  if (out != "-") {
+    if (format.empty()) return out;
+    throw UsageError("--format: is for standard output, OUT -; the format of a file follows its extension");
+  }
+  if (format.empty())
+    throw UsageError("-: name the format to write to standard output with --format (exr, hdr, png…)");
+  try {
+    io::capabilities_for("x." + format);
+  } catch (const Error& error) {
+    throw UsageError("--format: " + error.cause());
+  }
+  if (io::standard_output_is_terminal())
+    throw UsageError("-: standard output is a terminal: redirect it to a file or another program");
+  return io::take_standard_output(format).string();
+}
+
+std::string input_path(const std::string& in) {
+  return in == "-" ? io::take_standard_input().string() : in;
 }
 
 void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags) {

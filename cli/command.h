@@ -94,6 +94,14 @@ struct WriteFlags {
   WriteMapOptions parse() const;
 };
 
+/// `--format`, for commands that write to standard output where OUT is `-`.
+void add_format(CLI::App& command, std::string& format);
+/// The path to write to: `out`, or where that is `-` the standard output as a file of this format. Throws
+/// UsageError for `-` without a format or to a terminal, and for a file with one.
+std::string output_path(const std::string& out, const std::string& format);
+/// The path to read from: `in`, or where that is `-` the standard input.
+std::string input_path(const std::string& in);
+
 /// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't
 /// fit (extension, `%s`, faces), Error for a folder that doesn't take the file.
 void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags = {});

@@ -33,7 +33,7 @@ ResampleOptions of_means(ResampleOptions options) {
 }
 
 struct Convert {
-  std::string in, out, to, size, filter = "auto", rotation, convention, fill;
+  std::string in, out, to, size, filter = "auto", rotation, convention, fill, format;
   ReadFlags read;
   WriteFlags write;
   SanitizeFlags repair;
@@ -301,9 +301,14 @@ void add_convert(CLI::App& app) {
   auto convert = std::make_shared<Convert>();
   CLI::App* command =
       app.add_subcommand("convert", "Convert a map between parameterizations, layouts and file formats");
-  command->add_option("IN", convert->in, "Map to read; %s in the name stands for a face's name (px, nx…)")
+  command
+      ->add_option("IN", convert->in,
+                   "Map to read; %s in the name stands for a face's name (px, nx…); - is standard input")
       ->required();
-  command->add_option("OUT", convert->out, "Map to write; its extension names the format")->required();
+  command
+      ->add_option("OUT", convert->out,
+                   "Map to write; its extension names the format; - is standard output, see --format")
+      ->required();
   command->add_option(
       "--to", convert->to,
       "Parameterization of the output: NAME[:LAYOUT][,PARAMETER=VALUE]. Default: the input's");
@@ -335,7 +340,15 @@ void add_convert(CLI::App& app) {
                           "Level of the input to take. Default: all, where the output holds levels and they "
                           "are filtered or keep their shape");
   convert->write.add(*command);
-  command->callback([convert] { convert->run(); });
+  add_format(*command, convert->format);
+  command->callback([convert] {
+    if (convert->verify && convert->out == "-")
+      throw UsageError(
+          "--verify: reads what was written, which standard output does not allow: write a file");
+    convert->out = output_path(convert->out, convert->format);
+    convert->in = input_path(convert->in);
+    convert->run();
+  });
 }
 
 }  // namespace welkin::cli

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Diff {
-  std::string a, b, filter = "bilinear", heat, from_b;
+  std::string a, b, filter = "bilinear", heat, from_b, format;
   ReadFlags read;
   double peak = 0, fail_above = -1;
   std::optional<int> level;
@@ -161,8 +161,8 @@ void add_diff(CLI::App& app) {
   auto diff = std::make_shared<Diff>();
   CLI::App* command = app.add_subcommand(
       "diff", "Measure how B differs from A over the sphere, also across parameterizations");
-  command->add_option("A", diff->a, "Reference map")->required();
-  command->add_option("B", diff->b, "Map to compare")->required();
+  command->add_option("A", diff->a, "Reference map; - is standard input")->required();
+  command->add_option("B", diff->b, "Map to compare; - is standard input")->required();
   command->add_option("--from-b", diff->from_b, "Parameterization of B, where it differs from --from");
   command
       ->add_option("--filter", diff->filter,
@@ -172,8 +172,10 @@ void add_diff(CLI::App& app) {
       ->add_option("--peak", diff->peak,
                    "What PSNR is relative to. Default: 1, or A's maximum where that is above 1")
       ->check(finite_number(0));
-  command->add_option("--heat", diff->heat,
-                      "Write a picture of the relative error (lat-long, colour scale 1e-5 to 1)");
+  command->add_option(
+      "--heat", diff->heat,
+      "Write a picture of the relative error (lat-long, colour scale 1e-5 to 1); - is standard output, see "
+      "--format");
   command
       ->add_option("--fail-above", diff->fail_above,
                    "Exit with status 1 when the relative RMSE is above this")
@@ -185,7 +187,15 @@ void add_diff(CLI::App& app) {
           "--level", diff->level,
           "Level to compare, of both files or of the one that has several. Default: each that both have")
       ->check(CLI::Range(0, 20));
-  command->callback([diff] { diff->run(); });
+  add_format(*command, diff->format);
+  command->callback([diff] {
+    if (diff->a == "-" && diff->b == "-")
+      throw UsageError("-: standard input holds one file, not both A and B");
+    diff->heat = output_path(diff->heat, diff->format);
+    diff->a = input_path(diff->a);
+    diff->b = input_path(diff->b);
+    diff->run();
+  });
 }
 
 }  // namespace welkin::cli

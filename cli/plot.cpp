@@ -12,7 +12,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct PlotDensity {
-  std::string out, of;
+  std::string out, of, format;
   int size = 256;
   bool json = false;
 
@@ -60,7 +60,7 @@ void PlotDensity::run() const {
 }
 
 struct PlotMips {
-  std::string in, out;
+  std::string in, out, format;
   ReadFlags read;
   double exposure = 0;
 
@@ -83,23 +83,33 @@ void add_plot(CLI::App& app) {
   auto density = std::make_shared<PlotDensity>();
   CLI::App* command = plot->add_subcommand(
       "density", "Solid angle of a texel over the average: picture, minimum, maximum, ratio");
-  command->add_option("OUT", density->out, "Picture to write; without it, only the numbers");
+  command->add_option("OUT", density->out,
+                      "Picture to write; without it, only the numbers; - is standard output, see --format");
   command->add_option("--of", density->of, "Parameterization. Default: the numbers of all");
   command->add_option("--size", density->size, "Texels across a chart")
       ->check(CLI::Range(2, 16384))
       ->capture_default_str();
   command->add_flag("--json", density->json, "Machine-readable, on standard output");
-  command->callback([density] { density->run(); });
+  add_format(*command, density->format);
+  command->callback([density] {
+    density->out = output_path(density->out, density->format);
+    density->run();
+  });
 
   auto mips = std::make_shared<PlotMips>();
   command = plot->add_subcommand(
       "mips", "A map's pyramid twice: plain 2×2 averages above, weighted by solid angle below");
-  command->add_option("IN", mips->in, "Map to read")->required();
-  command->add_option("OUT", mips->out, "Picture to write")->required();
+  command->add_option("IN", mips->in, "Map to read; - is standard input")->required();
+  command->add_option("OUT", mips->out, "Picture to write; - is standard output, see --format")->required();
   command->add_option("--exposure", mips->exposure, "Brighten the picture by this many stops")
       ->check(finite_number());
   mips->read.add(*command);
-  command->callback([mips] { mips->run(); });
+  add_format(*command, mips->format);
+  command->callback([mips] {
+    mips->out = output_path(mips->out, mips->format);
+    mips->in = input_path(mips->in);
+    mips->run();
+  });
 
   add_plot_lobe(*plot);
 }

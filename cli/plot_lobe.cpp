@@ -20,7 +20,7 @@ constexpr std::array kShares{0.5, 0.9, 0.99};
 constexpr int kPrintedDegree = 8;
 
 struct PlotLobe {
-  std::string out, axis = "linear";
+  std::string out, axis = "linear", format;
   std::vector<std::string> specs;
   LobePlot plot;
   bool json = false;
@@ -111,7 +111,8 @@ void add_plot_lobe(CLI::App& plot) {
   auto request = std::make_shared<PlotLobe>();
   CLI::App* command =
       plot.add_subcommand("lobe", "Weight against angle: curves, integral, width, energy cones");
-  command->add_option("OUT", request->out, "Picture to write; without it, only the numbers");
+  command->add_option("OUT", request->out,
+                      "Picture to write; without it, only the numbers; - is standard output, see --format");
   command
       ->add_option("--lobe", request->specs,
                    "NAME[,PARAMETER=VALUE], or table,file=PATH; again for more curves. Default: all, see "
@@ -127,7 +128,11 @@ void add_plot_lobe(CLI::App& plot) {
       ->check(CLI::Range(200, 4096))
       ->capture_default_str();
   command->add_flag("--json", request->json, "Machine-readable, on standard output");
-  command->callback([request] { request->run(); });
+  add_format(*command, request->format);
+  command->callback([request] {
+    request->out = output_path(request->out, request->format);
+    request->run();
+  });
 }
 
 }  // namespace welkin::cli

@@ -98,7 +98,7 @@ void Sample::run() const {
 void add_sample(CLI::App& app) {
   auto sample = std::make_shared<Sample>();
   CLI::App* command = app.add_subcommand("sample", "Print a map's radiance along directions, one line each");
-  command->add_option("MAP", sample->map, "Map to read")->required();
+  command->add_option("MAP", sample->map, "Map to read; - is standard input, with --dir")->required();
   command
       ->add_option("--dir", sample->directions,
                    "Directions x,y,z of any length (+Y is up). Without it: lines `x y z` from standard input")
@@ -111,7 +111,12 @@ void add_sample(CLI::App& app) {
   command->add_option("--filter", sample->filter, "nearest, bilinear, bicubic, lanczos")
       ->capture_default_str();
   sample->read.add(*command);
-  command->callback([sample] { sample->run(); });
+  command->callback([sample] {
+    if (sample->map == "-" && sample->directions.empty())
+      throw UsageError("-: standard input holds the map, not the directions: give these with --dir");
+    sample->map = input_path(sample->map);
+    sample->run();
+  });
 }
 
 }  // namespace welkin::cli

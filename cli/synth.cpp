@@ -8,7 +8,7 @@ namespace welkin::cli {
 namespace {
 
 struct Synth {
-  std::string name, out, to = "latlong", size, convention;
+  std::string name, out, to = "latlong", size, convention, format;
   WriteFlags write;
   synth::SynthOptions options;
   int samples = 4;
@@ -51,7 +51,10 @@ void add_synth(CLI::App& app) {
   std::string names;
   for (const std::string& name : synth::names()) names += (names.empty() ? "" : ", ") + name;
   command->add_option("NAME", synth->name, names + " (`welkin list maps` describes them)")->required();
-  command->add_option("OUT", synth->out, "Map to write; its extension names the format")->required();
+  command
+      ->add_option("OUT", synth->out,
+                   "Map to write; its extension names the format; - is standard output, see --format")
+      ->required();
   command->add_option("--to", synth->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")
       ->capture_default_str();
   command->add_option("--size", synth->size,
@@ -80,7 +83,11 @@ void add_synth(CLI::App& app) {
   command->add_option("--turbidity", o.turbidity, "sky: 2 (clear) to 10 (haze)")->capture_default_str();
   command->add_option("--albedo", o.albedo, "sky: reflectance of the ground")->capture_default_str();
   synth->write.add(*command);
-  command->callback([synth] { synth->run(); });
+  add_format(*command, synth->format);
+  command->callback([synth] {
+    synth->out = output_path(synth->out, synth->format);
+    synth->run();
+  });
 }
 
 }  // namespace welkin::cli

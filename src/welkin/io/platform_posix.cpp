@@ -10,6 +10,7 @@
 #include <cassert>
 #include <cerrno>
 #include <climits>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <system_error>
@@ -29,6 +30,15 @@ static_assert(sizeof(off_t) == 8, "files over 2 GiB need 64-bit offsets");
 
 /// A pipe has no length, so one that never ends is refused here.
 constexpr std::size_t kLongestPipe = std::size_t{8} << 30;
+
+/// A standard stream that was taken as a file.
+struct TakenStream {
+  fs::path name;
+  int descriptor = -1;  ///< none: it was not taken
+
+  bool is(const fs::path& path) const { return descriptor >= 0 && path == name; }
+};
+TakenStream taken_input, taken_output;
 
 std::string reason(int error) {
   return std::generic_category().message(error);
@@ -52,6 +62,11 @@ ErrorKind kind_of(int error) {
 
 [[noreturn]] void fail() {
   throw Error(kind_of(errno), reason(errno));
+}
+
+/// Another descriptor of the same open file, none of the standard streams'.
+int duplicate(int descriptor) {
+  return ::fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
 }
 
 class Descriptor {
@@ -175,14 +190,14 @@ OutputFile::OutputFile(const fs::path& path) : state_(std::make_unique<State>())
   State& state = *state_;
   if (path.empty()) throw Error(kind_of(ENOENT), reason(ENOENT));
   struct stat old {};
-  const bool exists = ::stat(path.c_str(), &old) == 0;
-  if (!exists && errno != ENOENT) fail();
+  const bool exists = !taken_output.is(path) && ::stat(path.c_str(), &old) == 0;
+  if (!exists && !taken_output.is(path) && errno != ENOENT) fail();
   if (exists && S_ISDIR(old.st_mode)) throw Error(kind_of(EISDIR), reason(EISDIR));
   if (exists && ::access(path.c_str(), W_OK) != 0) fail();
   const std::string text = path.lexically_normal().string();
   const bool kernel_file =
       (text.starts_with("/dev/") && !text.starts_with("/dev/shm/")) || text.starts_with("/proc/");
-  if (exists && (!S_ISREG(old.st_mode) || kernel_file)) {
+  if (taken_output.is(path) || (exists && (!S_ISREG(old.st_mode) || kernel_file))) {
     state.target = path;
     state.file = std::make_unique<Descriptor>(open_spool());
     return;
@@ -255,7 +270,8 @@ void OutputFile::commit() {
   State& state = *state_;
   require(state.file->number() >= 0, "an output file is committed once");
   if (state.spooled()) {
-    Descriptor target(::open(state.target.c_str(), O_WRONLY | O_CLOEXEC));
+    Descriptor target(taken_output.is(state.target) ? duplicate(taken_output.descriptor)
+                                                    : ::open(state.target.c_str(), O_WRONLY | O_CLOEXEC));
     if (target.number() < 0) fail();
     std::vector<std::byte> block(std::size_t{1} << 20);
     for (std::uint64_t at = 0; at < state.size;) {
@@ -275,7 +291,8 @@ void OutputFile::commit() {
 
 InputFile::InputFile(const fs::path& path) {
   const auto fail_named = [&] { throw Error(kind_of(errno), path.string(), reason(errno)); };
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const bool taken = taken_input.is(path);
+  Descriptor file(taken ? duplicate(taken_input.descriptor) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat status {};
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) fail_named();
   if (S_ISDIR(status.st_mode)) throw Error(kind_of(EISDIR), path.string(), reason(EISDIR));
@@ -286,7 +303,8 @@ InputFile::InputFile(const fs::path& path) {
     bytes_ = {static_cast<const std::byte*>(address), size};
     return address;
   };
-  if (S_ISREG(status.st_mode) && status.st_size > 0) {
+  const bool from_the_start = !taken || ::lseek(file.number(), 0, SEEK_CUR) == 0;
+  if (S_ISREG(status.st_mode) && status.st_size > 0 && from_the_start) {
     map(static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file.number());
     return;
   }
@@ -322,6 +340,24 @@ void remove_unfinished_outputs() noexcept {
 
 bool standard_error_is_terminal() {
   return isatty(STDERR_FILENO) != 0;
+}
+
+bool standard_output_is_terminal() {
+  return isatty(STDOUT_FILENO) != 0;
+}
+
+fs::path take_standard_input() {
+  taken_input = {"standard input", STDIN_FILENO};
+  return taken_input.name;
+}
+
+fs::path take_standard_output(std::string_view extension) {
+  require(taken_output.descriptor < 0, "standard output is taken once");
+  std::fflush(stdout);
+  const int descriptor = duplicate(STDOUT_FILENO);
+  if (descriptor < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) fail();
+  taken_output = {"standard output." + std::string(extension), descriptor};
+  return taken_output.name;
 }
 
 void hold_standard_streams() {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <string_view>
+
 #include "welkin/base/export.h"
 
 /// @file
@@ -9,6 +12,19 @@ namespace welkin::io {
 
 /// Whether messages go to a terminal, where a progress bar makes sense.
 WELKIN_API bool standard_error_is_terminal();
+
+/// Whether results go to a terminal, which a file's bytes would garble.
+WELKIN_API bool standard_output_is_terminal();
+
+/// Makes standard input a file: the path that is returned stands for it, and an InputFile of it reads from
+/// where it stands to its end. There is no more to read afterwards. At most once, before other threads.
+WELKIN_API std::filesystem::path take_standard_input();
+
+/// Makes standard output a file of that format: the path that is returned stands for it, and what an
+/// OutputFile of it has received goes there when it is committed. All else that is printed to standard output
+/// goes to standard error from now on. At most once, before other threads. Throws Error (system) where the
+/// system refuses.
+WELKIN_API std::filesystem::path take_standard_output(std::string_view extension);
 
 /// Reserves the descriptors of standard streams that the caller closed, so that no file opened later is
 /// mistaken for one. Writing to them still fails. Call once, at the start of a program.
