@@ -285,16 +285,20 @@ std::string input_path(const std::string& in) {
   return in == "-" ? io::take_standard_input().string() : in;
 }
 
-void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags) {
-  const Layout& layout = shape.layout;
-  if (!flags.faces.empty()) {
-    parse_option("--to-faces", [&] { return with_faces(layout, shape.parameterization, flags.faces); });
-  }
+void check_extension(const std::string& path) {
   try {
     io::capabilities_for(path);
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
+}
+
+void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags) {
+  const Layout& layout = shape.layout;
+  if (!flags.faces.empty()) {
+    parse_option("--to-faces", [&] { return with_faces(layout, shape.parameterization, flags.faces); });
+  }
+  check_extension(path);
   try {
     check_face_pattern(path, layout);
   } catch (const Error& error) {

@@ -102,6 +102,8 @@ std::string output_path(const std::string& out, const std::string& format);
 /// The path to read from: `in`, or where that is `-` the standard input.
 std::string input_path(const std::string& in);
 
+/// UsageError for a name whose extension is that of no format which is written.
+void check_extension(const std::string& path);
 /// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't
 /// fit (extension, `%s`, faces), Error for a folder that doesn't take the file.
 void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags = {});

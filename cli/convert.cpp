@@ -74,6 +74,7 @@ void Convert::run() const {
   read.parse();
   const WriteMapOptions write_options = write.parse();
   repair.parse();
+  check_extension(out);
   if (json && !verify) throw UsageError("--json: is the report of --verify, which is not asked for");
   ResampleOptions options;
   options.filter = parse_option("--filter", [&] { return filter_from_name(filter); });

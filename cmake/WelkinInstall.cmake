@@ -41,18 +41,20 @@ install(FILES ${PROJECT_BINARY_DIR}/welkin-config.cmake ${PROJECT_BINARY_DIR}/we
 install(EXPORT welkin-targets NAMESPACE welkin:: DESTINATION ${package_destination})
 
 # pkg-config. A static library makes its user link what it uses, so `pkg-config --libs` names it without `--static` too.
-set(link_only tbb OpenEXR Imath libpng libjpeg libtiff-4 libwebp libwebpdemux libwebpmux libdeflate libzstd libjxl libheif lcms2 pugixml zlib)
+set(link_only tbb OpenEXR Imath libpng libjpeg libtiff-4 libwebp libwebpdemux libwebpmux libdeflate libzstd libjxl lcms2 pugixml zlib)
 list(JOIN link_only " " link_only)
+# libheif.pc names codecs that a static libheif needs, whose files Debian doesn't install beside it.
+set(link_by_name "-lheif")
 set(pc_requires "")
 set(pc_libs "-L\${libdir} -lwelkin")
 set(pc_libs_private "")
 if(WELKIN_IS_STATIC)
   set(pc_requires "${link_only}")
   set(pc_requires_private "")
-  string(APPEND pc_libs " -pthread")
+  string(APPEND pc_libs " ${link_by_name} -pthread")
 else()
   set(pc_requires_private "${link_only}")
-  set(pc_libs_private "-pthread")
+  set(pc_libs_private "${link_by_name} -pthread")
 endif()
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_LIBDIR BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX} OUTPUT_VARIABLE pc_libdir)
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_INCLUDEDIR BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX} OUTPUT_VARIABLE pc_includedir)

@@ -131,8 +131,7 @@ refuses 1 "inside-out.exr: ." info inside-out.exr
 must synth axes square.pfm --to octahedral --size 16
 refuses 1 "square.pfm: cannot tell which parameterization 16×16 is; name it with --from" convert square.pfm out.exr
 matches "unknown: .*name it with --from" info square.pfm
-refuses 1 "square.pfm: 16×16 does not fit latlong" convert square.pfm out.exr --from latlong
-refuses 1 "map.exr: 32×16 does not fit octahedral" info map.exr --from octahedral
+refuses 1 "square.pfm: 16×16 does not fit cube:vcross" convert square.pfm out.exr --from cube:vcross
 refuses 1 "map.exr: 32×16 does not fit cube:hcross" info map.exr --from cube:hcross
 refuses 1 "map.exr: cube:faces is in several files: put %s in the name" info map.exr --from cube:faces
 refuses 1 "map.exr: cube:layers needs 6 parts, the file has 1" info map.exr --from cube:layers

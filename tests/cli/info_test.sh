@@ -41,7 +41,7 @@ fi
 must synth sun sun.exr --size 1024 --azimuth 60 --elevation 30 --angle 4 --intensity 1000 --background 0
 "$welkin" info sun.exr --json >"$work/json"
 wanted=$(awk "BEGIN { d = $pi / 180; print cos(30 * d) * sin(60 * d), sin(30 * d), cos(30 * d) * cos(60 * d) }")
-near "direction of the sun" "$(grep -A 4 '"direction"' "$work/json" | grep -oE -- '-?[0-9]+\.[0-9e-]+' | tr '\n' ' ')" "$wanted" 2e-3
+near "direction of the sun" "$(grep -m 1 -A 3 '"direction"' "$work/json" | grep -oE -- '-?[0-9]+\.[0-9e-]+' | tr '\n' ' ')" "$wanted" 2e-3
 near "share of the sun" "$(number share <"$work/json")" 1 0.06
 near "peak of the sun" "$(number peak <"$work/json")" 1000 1
 near "light of the sun" "$(number integral <"$work/json")" "$(awk "BEGIN { print 1000 * 2 * $pi * (1 - cos(2 * $pi / 180)) }")" 0.05

@@ -15,6 +15,6 @@ matches '^Usage: welkin plot density' help plot density
 matches '^Usage: welkin plot lobe' help plot lobe
 for name in $("$welkin" list lobes | cut -d ' ' -f 1 | grep -v '^table,'); do must plot lobe --lobe "$name"; done
 matches '^welkin [0-9]+\.[0-9]+\.[0-9]+$' --version
-for format in $("$welkin" list formats); do must convert card.exr "listed.$format"; done
+for format in $("$welkin" list formats | grep -v 'read only'); do must convert card.exr "listed.$format"; done
 
 finish

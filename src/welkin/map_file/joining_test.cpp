@@ -119,6 +119,9 @@ TEST_F(Joining, FacesThatJoinInNoWayAreTold) {
   const LoadedMap loaded = read_map(written(cube("native"), "vstrip", "nz,py,px,nx:90,ny,pz"));
   ASSERT_EQ(loaded.info.image.warnings.size(), 1u);
   EXPECT_NE(loaded.info.image.warnings[0].find("do not join"), std::string::npos);
+  ReadMapOptions options;
+  options.shape = "cube:vstrip";
+  EXPECT_TRUE(read_map(folder_ / "sky.pfm", options).info.image.warnings.empty());
 }
 
 TEST_F(Joining, FacesOfOneColourAreLeftAloneAndTold) {

@@ -135,6 +135,8 @@ void MapReader::join_faces() {
     changed.faces = joining.better->faces;
     joining_ = {"its faces do not join in the native world, but in " + text_of(*joining.better) +
                 ": read so"};
+  } else if (options_.shape || shape().layout.kind == LayoutKind::files) {
+    return;  // what was asked for, or is named as faces are, may be six pictures of their own
   } else {
     joining_ = {"its faces do not join (" + info_.shape->text() + ", " + info_.reason +
                 "): name the parameterization, or the faces' order and turns"};
@@ -145,9 +147,8 @@ void MapReader::join_faces() {
 void MapReader::check_faces() {
   if (!leaves_faces_open(info_)) return;
   const Joining joining = measure_joining(read(), shape().layout);
-  if (joining.joins()) return;
-  joining_ = {"its faces do not join as they are read" +
-              (joining.better ? "; they would in " + text_of(*joining.better) : std::string())};
+  if (joining.joins() || !joining.better) return;
+  joining_ = {"its faces do not join as they are read; they would in " + text_of(*joining.better)};
   inspect_with(options_);
 }
 
