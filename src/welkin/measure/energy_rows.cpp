@@ -102,7 +102,7 @@ class CommonPart {
 /// as on the rim of a disc. Such texels hold what lies beside them (fill_borders).
 std::vector<float> solid_angles(const MapFrame& frame, int chart, int y, bool rim) {
   const auto& p = frame.parameterization;
-  const auto [width, height] = frame.size;
+  const int width = frame.size.width, height = frame.size.height;
   std::vector<float> omega(static_cast<std::size_t>(width));
   texel_solid_angles(p, width, height, chart, y, omega.data());
   if (!rim || p.full_charts()) return omega;
@@ -139,7 +139,7 @@ double mean_weight(const MapFrame& frame, const Cone& cone, int chart, int x, in
 
 /// Density at the texels' centres times their area.
 std::vector<float> centre_solid_angles(const MapFrame& frame, int chart, int y) {
-  const auto [width, height] = frame.size;
+  const int width = frame.size.width, height = frame.size.height;
   alignas(64) float u[kBatch], v[kBatch], density[kBatch];
   const float area = 1.0f / (static_cast<float>(width) * static_cast<float>(height));
   const float step = 1.0f / static_cast<float>(width);
@@ -205,7 +205,7 @@ double texel_side(const MapFrame& frame, const Vec3d& direction) {
   const auto& p = frame.parameterization;
   if (!p.covers(direction)) return 0;
   const auto at = p.from_sphere(direction);
-  const auto [width, height] = frame.size;
+  const int width = frame.size.width, height = frame.size.height;
   const double x = std::clamp(std::floor(at.u * width), 0.0, width - 1.0),
                y = std::clamp(std::floor(at.v * height), 0.0, height - 1.0);
   const auto corner = [&](int right, int down) {
@@ -247,7 +247,7 @@ void RowSums::add(const RowSums& other) {
 /// 1e-5.
 std::vector<float> EnergyFrame::weights(int chart, int y, bool exact) const {
   const auto& p = frame.parameterization;
-  const auto [width, height] = frame.size;
+  const int width = frame.size.width, height = frame.size.height;
   std::vector<float> omega;
   if (!exact && p.full_charts() && !p.density_by_row() && std::min(width, height) >= kLargeChart) {
     omega = centre_solid_angles(frame, chart, y);
