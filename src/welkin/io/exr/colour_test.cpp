@@ -112,7 +112,10 @@ TEST(ExrColour, PartsThatDifferAreTold) {
   for (TestPart& part : parts) Imf::addChromaticities(part.header, kP3);
   EXPECT_TRUE(opened(parts).declared.primaries) << "all say the same";
   EXPECT_TRUE(opened(parts).warnings.empty());
-  for (TestPart& part : parts) part.header.erase("chromaticities");
+  // OpenEXR's Header::erase leaks.
+  parts = {small_part(), small_part()};
+  parts[0].header.setName("a");
+  parts[1].header.setName("b");
   parts[1].header.insert("colorInteropID", Imf::StringAttribute("lin_ap1_scene"));
   const Opened differ = opened(parts);
   EXPECT_FALSE(differ.declared.primaries);
