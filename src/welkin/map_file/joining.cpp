@@ -23,9 +23,13 @@ int texel_at(int i, int size) {
   return static_cast<int>((i + 0.5) * size / kSide);
 }
 
-/// log₂ of luminance over the map's mean, so that dark and bright edges count alike; the darkest count for
-/// little.
 using Face = Image;
+
+std::vector<Face> blank_faces() {
+  std::vector<Face> faces;
+  for (int face = 0; face < kFaces; ++face) faces.emplace_back(kSide, kSide, 1);
+  return faces;
+}
 
 double luminance_at(const Map& map, int face, int x, int y) {
   const float* const texel = map.level.chart(face).at(x, y);
@@ -34,11 +38,13 @@ double luminance_at(const Map& map, int face, int x, int y) {
          0.0722 * static_cast<double>(texel[2]);
 }
 
+/// log₂ of luminance over the map's mean, so that dark and bright edges count alike; the darkest count for
+/// little.
 std::vector<Face> faces_of(const Map& map) {
-  std::vector<Face> faces;
+  std::vector<Face> faces = blank_faces();
   double sum = 0;
   for (int face = 0; face < kFaces; ++face) {
-    Face& small = faces.emplace_back(kSide, kSide, 1);
+    Face& small = faces[static_cast<std::size_t>(face)];
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         const double value = luminance_at(map, face, texel_at(x, map.width()), texel_at(y, map.height()));
@@ -150,8 +156,7 @@ Joining measure_joining(const Map& map, const Layout& layout) {
   if (joining.joins()) return joining;
 
   // The pictures as they lie in the file, by the names of their faces.
-  std::vector<Face> pictures;
-  for (int face = 0; face < kFaces; ++face) pictures.emplace_back(kSide, kSide, 1);
+  std::vector<Face> pictures = blank_faces();
   for (const LayoutCell& cell : layout.cells)
     copy_to_cell(cell, charts[static_cast<std::size_t>(cell.chart)].view(),
                  pictures[static_cast<std::size_t>(cell.chart)].view());
@@ -162,8 +167,7 @@ Joining measure_joining(const Map& map, const Layout& layout) {
   for (FaceReading& reading : tried) {
     Layout read = layout_for(*files, p, reading.orientation);
     if (!reading.faces.empty()) read = with_faces(read, p, reading.faces);
-    std::vector<Face> faces;
-    for (int face = 0; face < kFaces; ++face) faces.emplace_back(kSide, kSide, 1);
+    std::vector<Face> faces = blank_faces();
     for (std::size_t slot = 0; slot < read.cells.size(); ++slot) {
       const LayoutCell& cell = read.cells[slot];
       copy_from_cell(cell, pictures[slot].view(), faces[static_cast<std::size_t>(cell.chart)].view());

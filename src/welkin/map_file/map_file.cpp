@@ -16,28 +16,27 @@ namespace {
 namespace fs = std::filesystem;
 using namespace map_file;
 
-/// The names of a cube's faces; none where the path is one file's, or its charts are numbered.
-std::vector<std::string> find_names(const fs::path& path, const ReadMapOptions& options) {
-  if (!is_pattern_to_read(path)) return {};
-  if (options.shape && !parse_map_shape(*options.shape).parameterization.traits().cube_faces) return {};
+/// The names of a cube's faces; null where the path is one file's, or its charts are numbered.
+const FaceNames* find_names(const fs::path& path, const ReadMapOptions& options) {
+  if (!is_pattern_to_read(path)) return nullptr;
+  if (options.shape && !parse_map_shape(*options.shape).parameterization.traits().cube_faces) return nullptr;
   try {
-    const FaceNames& found = find_face_names(path);
-    return {found.faces.begin(), found.faces.end()};
+    return &find_face_names(path);
   } catch (const Error&) {
     // Without a shape these may be numbered charts, fewer than a cube has.
     std::error_code unknown;
     if (options.shape || !fs::exists(chart_path(path, "0"), unknown) ||
         fs::exists(chart_path(path, "px"), unknown))
       throw;
-    return {};
+    return nullptr;
   }
 }
 
 /// Opens the file, or the first of the files of a pattern.
-std::unique_ptr<io::Reader> open_first(const fs::path& path, const std::vector<std::string>& face_names,
+std::unique_ptr<io::Reader> open_first(const fs::path& path, const FaceNames* face_names,
                                        const ReadMapOptions& options) {
   if (!is_pattern_to_read(path)) return io::open(path, options.image);
-  return io::open(chart_path(path, face_names.empty() ? "0" : face_names.front()), options.image);
+  return io::open(chart_path(path, face_names == nullptr ? "0" : face_names->faces.front()), options.image);
 }
 
 }  // namespace
@@ -60,21 +59,17 @@ MapReader::MapReader(std::span<const std::byte> bytes, const std::string& name, 
 
 MapFileInfo MapReader::inspected(const ReadMapOptions& options) const {
   MapFileInfo info = inspect(path_, reader_->info(), options);
-  if (face_names_.empty() || !info.shape || !info.shape->parameterization.traits().cube_faces) return info;
-  const FaceNames& native = known_face_names().front();
-  if (std::equal(face_names_.begin(), face_names_.end(), native.faces.begin())) return info;
-  const auto names =
-      std::find_if(known_face_names().begin(), known_face_names().end(), [this](const FaceNames& each) {
-        return std::equal(each.faces.begin(), each.faces.end(), face_names_.begin(), face_names_.end());
-      });
-  const std::string text = "the faces are called " + names->text() + ": taken for +X −X +Y −Y +Z −Z";
-  (names->axes ? info.image.notes : info.image.warnings).push_back(text);
+  const bool native = face_names_ == nullptr || face_names_ == &known_face_names().front();
+  if (native || !info.shape || !info.shape->parameterization.traits().cube_faces) return info;
+  const std::string text = "the faces are called " + face_names_->text() + ": taken for +X −X +Y −Y +Z −Z";
+  (face_names_->axes ? info.image.notes : info.image.warnings).push_back(text);
   return info;
 }
 
 std::vector<std::string> MapReader::file_names() const {
   const sphere::AnyParameterization& p = shape().parameterization;
-  return p.traits().cube_faces && !face_names_.empty() ? face_names_ : chart_names(p);
+  if (!p.traits().cube_faces || face_names_ == nullptr) return chart_names(p);
+  return {face_names_->faces.begin(), face_names_->faces.end()};
 }
 
 void MapReader::inspect_with(ReadMapOptions options) {

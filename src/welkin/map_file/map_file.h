@@ -16,6 +16,9 @@
 /// @file
 /// Image files ↔ maps: which parameterization a picture has, and where its charts lie in it.
 namespace welkin {
+namespace map_file {
+struct FaceNames;
+}
 
 /// Of a picture that holds those of two eyes, the one that is read.
 enum class Eye {
@@ -125,7 +128,7 @@ class WELKIN_API MapReader {
 
   std::filesystem::path path_;
   ReadMapOptions options_;
-  std::vector<std::string> face_names_;  ///< of the files of a cube's faces, as they were found
+  const map_file::FaceNames* face_names_ = nullptr;  ///< of the files of a cube's faces, where there are six
   std::unique_ptr<io::Reader> reader_;
   MapFileInfo info_;
   std::vector<std::string> joining_;  ///< what there is to tell of how faces join
