@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "energy_report.h"
+#include "welkin/base/listed.h"
 #include "welkin/map_file/safety_border.h"
 #include "welkin/measure/energy.h"
 #include "welkin/measure/statistics.h"
@@ -43,12 +44,6 @@ std::size_t part_read(const MapFileInfo& info) {
   const auto read = info.image.parts.begin() + static_cast<std::ptrdiff_t>(info.picture);
   return static_cast<std::size_t>(std::count_if(info.image.parts.begin(), read,
                                                 [](const io::PartInfo& part) { return part.level == 0; }));
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
-  return text;
 }
 
 /// `top-bottom`, `left-right`; empty where there is one picture.

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "welkin/base/error.h"
+#include "welkin/base/listed.h"
 #include "welkin/io/format.h"
 
 namespace welkin::io {
@@ -18,12 +19,6 @@ std::string extension_of(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 }  // namespace
@@ -58,8 +53,8 @@ PixelType pixel_type_from_name(std::string_view name) {
 }
 
 std::string only_read(const Capabilities& format) {
-  return format.title + " is only read here, not written (can be written: " + listed(writable_extensions()) +
-         ")";
+  return format.title +
+         " is only read here, not written (can be written: " + listed(writable_extensions(), ", ") + ")";
 }
 
 bool Capabilities::holds(PixelType type) const {
@@ -91,11 +86,10 @@ const Capabilities& capabilities_for(const std::filesystem::path& path) {
     if (!each.writable) throw Error(ErrorKind::unsupported, path.string(), only_read(each));
     return each;
   }
-  throw Error(
-      ErrorKind::bad_request, path.string(),
-      extension.empty()
-          ? "the name has no extension to tell the format by (one of: " + listed(writable_extensions()) + ")"
-          : unknown_name("extension", extension, writable_extensions()));
+  throw Error(ErrorKind::bad_request, path.string(),
+              extension.empty() ? "the name has no extension to tell the format by (one of: " +
+                                      listed(writable_extensions(), ", ") + ")"
+                                : unknown_name("extension", extension, writable_extensions()));
 }
 
 std::vector<std::string> writable_extensions() {

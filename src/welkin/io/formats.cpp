@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "welkin/base/error.h"
+#include "welkin/base/listed.h"
 #include "welkin/io/format.h"
 #include "welkin/io/interpret.h"
 #include "welkin/io/output_file.h"
@@ -60,12 +61,6 @@ std::string first_bytes(std::span<const std::byte> bytes) {
   return "'" + text + "' (" + codes + ")";
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 std::string gibibytes(long double bytes) {
   char text[64];
   std::snprintf(text, sizeof text, "%.3Lg GiB", bytes / (1 << 30));
@@ -112,7 +107,7 @@ std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name,
   if (const auto known = unread_format(bytes)) throw Error(ErrorKind::unsupported, name, *known);
   throw Error(ErrorKind::unsupported, name,
               "not an image of a known format: begins with " + first_bytes(bytes) +
-                  " (can be read: " + listed(names) + ")");
+                  " (can be read: " + listed(names, ", ") + ")");
 }
 
 std::unique_ptr<Reader> open(const std::filesystem::path& path, const ReadOptions& options) {

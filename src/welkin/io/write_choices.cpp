@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "welkin/base/error.h"
+#include "welkin/base/listed.h"
 
 namespace welkin::io {
 
@@ -35,8 +36,7 @@ std::vector<int> channel_order(const WritePart& part, Alpha alpha, std::string_v
     }
     return order;
   }
-  std::string asked;
-  for (const auto& name : part.channels) asked += (asked.empty() ? "" : " ") + name;
+  const std::string asked = listed(part.channels);
   throw Error(ErrorKind::unsupported, std::string(format) + " holds the channels Y or R G B" +
                                           (alpha == Alpha::allowed ? ", either with A" : " without alpha") +
                                           "; not " + asked);

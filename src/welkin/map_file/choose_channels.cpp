@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "welkin/base/error.h"
+#include "welkin/base/listed.h"
 #include "welkin/io/channel_names.h"
 #include "welkin/map_file/map_file_job.h"
 
@@ -29,12 +30,6 @@ std::string layer_of(const std::string& channel) {
 
 std::string last_component(const std::string& name) {
   return name.substr(name.rfind('.') + 1);  // all of it without a dot: npos + 1 is 0
-}
-
-std::string listed(const std::vector<std::string>& names, const char* between = " ") {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : between) + name;
-  return text;
 }
 
 std::string meaning_of(const std::string& channel) {

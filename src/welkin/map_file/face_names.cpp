@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "welkin/base/error.h"
+#include "welkin/base/listed.h"
 #include "welkin/map_file/map_file_job.h"
 
 namespace welkin::map_file {
@@ -87,9 +88,7 @@ long count_there(const fs::path& pattern, const FaceNames& names) {
 }  // namespace
 
 std::string FaceNames::text() const {
-  std::string text;
-  for (const std::string& face : faces) text += (text.empty() ? "" : " ") + face;
-  return text;
+  return listed(faces);
 }
 
 const std::vector<FaceNames>& known_face_names() {

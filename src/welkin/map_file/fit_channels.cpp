@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "welkin/base/error.h"
+#include "welkin/base/listed.h"
 #include "welkin/base/parallel.h"
 #include "welkin/map_file/map_file.h"
 
@@ -10,12 +11,6 @@ namespace welkin {
 namespace {
 
 using Names = std::vector<std::string>;
-
-std::string listed(const Names& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
-  return text;
-}
 
 bool are(const Names& names, const Names& known) {
   return std::is_permutation(names.begin(), names.end(), known.begin(), known.end());

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "welkin/base/error.h"
+#include "welkin/base/listed.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/encode_pixels.h"
 #include "welkin/io/text_attributes.h"
@@ -186,9 +187,7 @@ class Writer {
     std::map<std::string, std::string> attributes;
     if (first) attributes = options_.attributes;
     if (samples.custom_names) {
-      std::string& names = attributes[kTiffChannels];
-      names.clear();
-      for (const auto& name : samples.names) names += (names.empty() ? "" : ",") + name;
+      attributes[kTiffChannels] = listed(samples.names, ",");
     }
     const std::string text = attribute_lines(attributes, "ImageDescription");
     if (!text.empty()) set(TIFFTAG_IMAGEDESCRIPTION, text.c_str());
