@@ -9,7 +9,10 @@ namespace {
 /// Copies `count` texels, each `from_step` values after the one before, to every `to_step`-th value.
 template <int kChannels>
 void copy_texels(const float* from, std::ptrdiff_t from_step, float* to, std::ptrdiff_t to_step, int count) {
-  for (int x = 0; x < count; ++x, from += from_step, to += to_step) std::copy_n(from, kChannels, to);
+  // Value by value: as copy_n each texel would be a call of memmove.
+  for (int x = 0; x < count; ++x, from += from_step, to += to_step) {
+    for (int c = 0; c < kChannels; ++c) to[c] = from[c];
+  }
 }
 
 void copy_texels(const float* from, std::ptrdiff_t from_step, float* to, std::ptrdiff_t to_step, int count,

@@ -37,8 +37,9 @@ class CellMaker {
   void draw(const LayoutCell& cell, int y, ImageView<float> rows) {
     try {
       if (monitor_.cancelled && monitor_.cancelled()) throw Cancelled();
-      maker_->make({cell.chart, walk_of(cell, frame_.size).from(0, y)}, rows);
-      if (made_rows_) made_rows_(cell.chart, y, rows);
+      const TexelWalk walk = walk_of(cell, frame_.size).from(0, y);
+      maker_->make({cell.chart, walk}, rows);
+      if (made_rows_) hand_out(cell.chart, walk, rows);
       if (!factors_.empty()) scale_rows(rows);
       if (monitor_.progress) monitor_.progress(progress(rows));
     } catch (...) {
@@ -54,6 +55,20 @@ class CellMaker {
   const std::exception_ptr& failure() const { return failure_; }
 
  private:
+  /// Rows of the cell as the chart has them, which are whole unless it lies on its side.
+  void hand_out(int chart, const TexelWalk& walk, ImageView<const float> rows) const {
+    if (walk.as_it_is()) return made_rows_(chart, walk.start_y, rows);
+    std::vector<float> straight(static_cast<std::size_t>(rows.width) *
+                                static_cast<std::size_t>(rows.channels));
+    const ImageView<float> row{straight.data(), rows.width, 1, rows.channels, 0};
+    for (int y = 0; y < rows.height; ++y) {
+      const TexelWalk along = walk.from(0, y);
+      copy_unwalked(rows.part(0, y, rows.width, 1),
+                    {along.right_x > 0 ? 0 : rows.width - 1, 0, along.right_x}, row);
+      made_rows_(chart, along.start_y, row);
+    }
+  }
+
   void scale_rows(ImageView<float> rows) const {
     for (int y = 0; y < rows.height; ++y) {
       float* value = rows.row(y);
@@ -113,11 +128,14 @@ io::WriteReport write_resampled(const std::filesystem::path& path, const Map& so
   Layout placed = layout_for(shape.layout, frame.parameterization, frame.orientation);
   if (!write.faces.empty()) placed = with_faces(placed, frame.parameterization, write.faces);
   check_turns(placed, size);
-  // Filter::automatic makes texels as their chart lies; turning them band by band takes longer than a map.
-  const bool turned = std::any_of(placed.cells.begin(), placed.cells.end(),
-                                  [&](const LayoutCell& cell) { return !walk_of(cell, size).as_it_is(); });
+  // Filter::automatic makes texels as their chart lies; turning them band by band takes longer than a map. Of
+  // cells that lie on their side no row is whole before all are made.
   const bool by_map =
-      write.border > 0 || (turned && (options.made || options.resample.filter == Filter::automatic));
+      write.border > 0 || std::any_of(placed.cells.begin(), placed.cells.end(), [&](const LayoutCell& cell) {
+        const TexelWalk walk = walk_of(cell, size);
+        return !walk.as_it_is() &&
+               (options.resample.filter == Filter::automatic || (options.made && walk.on_its_side()));
+      });
   if (by_map) return write_by_map(path, source, frame, shape.layout, write, options);
   CellMaker maker(source, frame, options);
   const WrittenLevel level(
