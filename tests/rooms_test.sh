@@ -6,6 +6,7 @@
 #   - a public header (src/welkin/public_headers.txt) is there once, and includes only public ones and the standard library; welkin.h
 #     includes all of them; its functions are exported;
 #   - no library header includes the command line's libraries, which cost every includer seconds of compile time;
+#   - a room's tests are in its CMakeLists.txt, so that they are built;
 #   - a source file of over 400 lines says why in its first ten.
 #
 # rooms_test.sh [ROOT]     prints each breach as FILE:LINE: what; fails if there is one.
@@ -79,6 +80,11 @@ for folder in src/welkin/*/; do
   done < <(includes '^[[:space:]]*#[[:space:]]*include[[:space:]]*("|<welkin/)' "$folder")
 done
 ((checked > 0)) || breach "no include was found to check"
+
+while IFS= read -r test; do
+  room=$(cut -d/ -f3 <<<"$test")
+  grep -qF -- "${test#src/welkin/"$room"/}" "src/welkin/$room/CMakeLists.txt" || breach "$test: not in the room's CMakeLists.txt, so never built"
+done < <(find src/welkin -mindepth 2 -name '*_test.cpp')
 
 # Public headers: what is installed compiles without the rest. The standard library's names have no folder and no ending.
 public=src/welkin/public_headers.txt

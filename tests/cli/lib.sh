@@ -79,8 +79,8 @@ same() {
   must diff "$a" "$b" --fail-above "$tolerance" "$@"
 }
 
-# number KEY <JSON: the first value of that key, at any depth.
-number() { grep -m 1 -oE "\"$1\": [^,]+" | sed -E 's/^[^:]*: //' || true; }
+# number KEY <JSON: the first value of that key, at any depth. Reads all: who writes to a closed pipe fails.
+number() { { grep -oE "\"$1\": [^,]+" || true; } | sed -nE '1s/^[^:]*: //p'; }
 
 # near WHAT FOUND WANTED TOLERANCE: two lists of numbers agree, each within TOLERANCE.
 near() {
