@@ -53,6 +53,24 @@ for extension in jxl avif heif heic; do
   matches "^$extension  read only$" list formats
 done
 
+# libheif and libjxl are loaded when such a file is opened, and not before: starting a process costs half as much without them.
+# Where one can't be, the message says which.
+checks=$((checks + 1))
+if LD_TRACE_LOADED_OBJECTS=1 "$welkin" --version | grep -E 'lib(heif|jxl|x265|de265|aom)'; then
+  fail "welkin is linked with these"
+fi
+mkdir no_libraries
+for library in libheif.so.1 libjxl.so.0.7; do : >"no_libraries/$library"; done
+printf '\0\0\0\24ftypavif\0\0\0\0mif1\0\0\0\14meta\0\0\0\0' >tiny.avif
+printf '\377\n\372\177' >tiny.jxl
+refuses 1 'tiny.avif: libheif cannot read it' info tiny.avif
+refuses 1 'tiny.jxl: ' info tiny.jxl
+export LD_LIBRARY_PATH=$PWD/no_libraries
+refuses 1 'tiny.avif: the library libheif.so.1, .*cannot be loaded.* Debian .* libheif1$' info tiny.avif
+refuses 1 'tiny.jxl: the library libjxl.so.0.7, .*cannot be loaded.* Debian .* libjxl0.7$' info tiny.jxl
+must info map.exr
+unset LD_LIBRARY_PATH
+
 # Quality counts.
 must convert map.exr fine.jpg --quality 98
 must convert map.exr rough.jpg --quality 10

@@ -29,6 +29,7 @@ class FormatReader : public Reader {
 struct Format {
   Capabilities capabilities;
   bool (*matches)(std::span<const std::byte> bytes);  ///< by magic number
+  /// Throws Error, to which the caller adds the file's name where it lacks.
   std::unique_ptr<FormatReader> (*open)(const Source& source);
   /// The request lies within the capabilities. Throws Error without the file's name, which the caller
   /// adds. Null where Capabilities::writable is false.

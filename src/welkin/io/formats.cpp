@@ -100,7 +100,13 @@ void check_size(const Source& source, std::uint64_t width, std::uint64_t height,
 std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name, const ReadOptions& options) {
   if (bytes.empty()) throw Error(ErrorKind::damaged, name, "the file is empty");
   for (const Format& format : formats()) {
-    if (format.matches(bytes)) return interpret(format.open({bytes, std::move(name), options}), options);
+    if (!format.matches(bytes)) continue;
+    try {
+      return interpret(format.open({bytes, name, options}), options);
+    } catch (const Error& error) {
+      if (!error.file().empty()) throw;
+      throw in_file(name, error);
+    }
   }
   std::vector<std::string> names;
   for (const Format& format : formats()) names.push_back(format.capabilities.format);

@@ -102,13 +102,13 @@ class HeifReader : public FormatReader {
   /// That a picture is grey, and how many bits it has, stands in the coded picture, so that it is decoded
   /// when the file opens.
   void decode_planes() {
-    const heif::Context context(heif_context_alloc(), heif_context_free);
+    const heif::Context context(heif::libheif().heif_context_alloc());
     if (context == nullptr) throw std::bad_alloc();
     handle_ = heif::primary_picture(context, source_);
     // The size is that after rotation and cropping, the number of channels not yet known. libheif refuses
     // sides over 32768 itself.
-    const int width = heif_image_handle_get_width(handle_.get());
-    const int height = heif_image_handle_get_height(handle_.get());
+    const int width = heif::libheif().heif_image_handle_get_width(handle_.get());
+    const int height = heif::libheif().heif_image_handle_get_height(handle_.get());
     check_size(source_, static_cast<std::uint64_t>(std::max(width, 0)),
                static_cast<std::uint64_t>(std::max(height, 0)), 1);
     if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) / kMostPixelsOfByte >
@@ -142,7 +142,7 @@ class HeifReader : public FormatReader {
     if (planes_->alpha()) {
       const bool linear =
           declared_.icc.empty() && info_.colour == Colour::linear && declared_.curve == Curve::none;
-      const bool premultiplied = heif_image_handle_is_premultiplied_alpha(handle_.get()) != 0;
+      const bool premultiplied = heif::libheif().heif_image_handle_is_premultiplied_alpha(handle_.get()) != 0;
       declared_.alpha = !premultiplied ? AlphaKind::straight
                         : linear       ? AlphaKind::associated
                                        : AlphaKind::encoded;
@@ -158,9 +158,9 @@ class HeifReader : public FormatReader {
   }
 
   Source source_;
-  heif::Handle handle_{nullptr, heif_image_handle_release};
-  heif::Picture picture_{nullptr, heif_image_release};
-  heif::CodePoints code_points_{nullptr, heif_nclx_color_profile_free};
+  heif::Handle handle_;
+  heif::Picture picture_;
+  heif::CodePoints code_points_;
   std::string doubt_;                   ///< of the code points
   std::optional<heif::Planes> planes_;  ///< until they are read
 };

@@ -27,30 +27,29 @@ void check(const heif_error& error, const Source& source) {
 }
 
 Handle primary_picture(const Context& context, const Source& source) {
-  check(heif_context_read_from_memory_without_copy(context.get(), source.bytes.data(), source.bytes.size(),
-                                                   nullptr),
+  check(libheif().heif_context_read_from_memory_without_copy(context.get(), source.bytes.data(),
+                                                             source.bytes.size(), nullptr),
         source);
   heif_image_handle* handle = nullptr;
-  check(heif_context_get_primary_image_handle(context.get(), &handle), source);
-  return {handle, heif_image_handle_release};
+  check(libheif().heif_context_get_primary_image_handle(context.get(), &handle), source);
+  return Handle(handle);
 }
 
 Picture decode(const Handle& handle, const Source& source) {
-  const std::unique_ptr<heif_decoding_options, void (*)(heif_decoding_options*)> options(
-      heif_decoding_options_alloc(), heif_decoding_options_free);
+  const std::unique_ptr<heif_decoding_options, Release> options(libheif().heif_decoding_options_alloc());
   if (options == nullptr) throw std::bad_alloc();
   options->strict_decoding = 1;
   heif_image* picture = nullptr;
-  check(heif_decode_image(handle.get(), &picture, heif_colorspace_undefined, heif_chroma_undefined,
-                          options.get()),
+  check(libheif().heif_decode_image(handle.get(), &picture, heif_colorspace_undefined, heif_chroma_undefined,
+                                    options.get()),
         source);
-  return {picture, heif_image_release};
+  return Picture(picture);
 }
 
 CodePoints code_points(const Handle& handle, std::string& doubt) {
   heif_color_profile_nclx* found = nullptr;
-  const heif_error error = heif_image_handle_get_nclx_color_profile(handle.get(), &found);
-  CodePoints points(found, heif_nclx_color_profile_free);
+  const heif_error error = libheif().heif_image_handle_get_nclx_color_profile(handle.get(), &found);
+  CodePoints points(found);
   if (error.code == heif_error_Ok) return points;
   // In spite of the error there is a profile, of other numbers than the file's.
   if (error.code != heif_error_Color_profile_does_not_exist) doubt = error.message;
@@ -59,20 +58,23 @@ CodePoints code_points(const Handle& handle, std::string& doubt) {
 }
 
 std::vector<std::byte> icc_profile(const Handle& handle, const Source& source) {
-  std::vector<std::byte> profile(heif_image_handle_get_raw_color_profile_size(handle.get()));
-  if (!profile.empty()) check(heif_image_handle_get_raw_color_profile(handle.get(), profile.data()), source);
+  std::vector<std::byte> profile(libheif().heif_image_handle_get_raw_color_profile_size(handle.get()));
+  if (!profile.empty())
+    check(libheif().heif_image_handle_get_raw_color_profile(handle.get(), profile.data()), source);
   return profile;
 }
 
 std::string xmp(const Handle& handle, const Source& source) {
-  const int count = heif_image_handle_get_number_of_metadata_blocks(handle.get(), "mime");
+  const int count = libheif().heif_image_handle_get_number_of_metadata_blocks(handle.get(), "mime");
   std::vector<heif_item_id> ids(static_cast<std::size_t>(count));
-  heif_image_handle_get_list_of_metadata_block_IDs(handle.get(), "mime", ids.data(), count);
+  libheif().heif_image_handle_get_list_of_metadata_block_IDs(handle.get(), "mime", ids.data(), count);
   for (const heif_item_id id : ids) {
-    if (heif_image_handle_get_metadata_content_type(handle.get(), id) != std::string("application/rdf+xml"))
+    if (libheif().heif_image_handle_get_metadata_content_type(handle.get(), id) !=
+        std::string("application/rdf+xml"))
       continue;
-    std::string packet(heif_image_handle_get_metadata_size(handle.get(), id), '\0');
-    if (!packet.empty()) check(heif_image_handle_get_metadata(handle.get(), id, packet.data()), source);
+    std::string packet(libheif().heif_image_handle_get_metadata_size(handle.get(), id), '\0');
+    if (!packet.empty())
+      check(libheif().heif_image_handle_get_metadata(handle.get(), id, packet.data()), source);
     return packet;
   }
   return {};
@@ -80,19 +82,21 @@ std::string xmp(const Handle& handle, const Source& source) {
 
 std::vector<std::string> auxiliary_types(const Handle& handle) {
   const int filter = static_cast<int>(LIBHEIF_AUX_IMAGE_FILTER_OMIT_ALPHA);
-  const int count = heif_image_handle_get_number_of_auxiliary_images(handle.get(), filter);
+  const int count = libheif().heif_image_handle_get_number_of_auxiliary_images(handle.get(), filter);
   std::vector<heif_item_id> ids(static_cast<std::size_t>(count));
-  heif_image_handle_get_list_of_auxiliary_image_IDs(handle.get(), filter, ids.data(), count);
+  libheif().heif_image_handle_get_list_of_auxiliary_image_IDs(handle.get(), filter, ids.data(), count);
   std::vector<std::string> types;
   for (const heif_item_id id : ids) {
     heif_image_handle* found = nullptr;
-    if (heif_image_handle_get_auxiliary_image_handle(handle.get(), id, &found).code != heif_error_Ok)
+    if (libheif().heif_image_handle_get_auxiliary_image_handle(handle.get(), id, &found).code !=
+        heif_error_Ok)
       continue;
-    const Handle auxiliary(found, heif_image_handle_release);
+    const Handle auxiliary(found);
     const char* type = nullptr;
-    if (heif_image_handle_get_auxiliary_type(auxiliary.get(), &type).code != heif_error_Ok) continue;
+    if (libheif().heif_image_handle_get_auxiliary_type(auxiliary.get(), &type).code != heif_error_Ok)
+      continue;
     types.emplace_back(type);
-    heif_image_handle_free_auxiliary_types(auxiliary.get(), &type);
+    libheif().heif_image_handle_free_auxiliary_types(auxiliary.get(), &type);
   }
   return types;
 }

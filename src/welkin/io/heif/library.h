@@ -1,18 +1,26 @@
 #pragma once
 
-#include <libheif/heif.h>
-
 #include <memory>
 
 #include "welkin/io/format.h"
+#include "welkin/io/heif/functions.h"
 
 /// libheif's objects, owned.
 namespace welkin::io::heif {
 
-using Context = std::unique_ptr<heif_context, void (*)(heif_context*)>;
-using Handle = std::unique_ptr<const heif_image_handle, void (*)(const heif_image_handle*)>;
-using Picture = std::unique_ptr<const heif_image, void (*)(const heif_image*)>;
-using CodePoints = std::unique_ptr<heif_color_profile_nclx, void (*)(heif_color_profile_nclx*)>;
+/// Gives them back.
+struct Release {
+  void operator()(heif_context* context) const { libheif().heif_context_free(context); }
+  void operator()(heif_decoding_options* options) const { libheif().heif_decoding_options_free(options); }
+  void operator()(const heif_image_handle* handle) const { libheif().heif_image_handle_release(handle); }
+  void operator()(const heif_image* picture) const { libheif().heif_image_release(picture); }
+  void operator()(heif_color_profile_nclx* points) const { libheif().heif_nclx_color_profile_free(points); }
+};
+
+using Context = std::unique_ptr<heif_context, Release>;
+using Handle = std::unique_ptr<const heif_image_handle, Release>;
+using Picture = std::unique_ptr<const heif_image, Release>;
+using CodePoints = std::unique_ptr<heif_color_profile_nclx, Release>;
 
 /// Throws libheif's error as one of the kind that it is.
 void check(const heif_error& error, const Source& source);

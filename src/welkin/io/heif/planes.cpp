@@ -51,14 +51,16 @@ void check_matrix(const heif_color_profile_nclx* code_points, const Source& sour
 }  // namespace
 
 Planes::Planes(const Picture& picture, const heif_color_profile_nclx* code_points, const Source& source) {
-  const heif_colorspace space = heif_image_get_colorspace(picture.get());
+  const heif_colorspace space = libheif().heif_image_get_colorspace(picture.get());
   grey_ = space == heif_colorspace_monochrome;
   if (!grey_) {
-    if (space != heif_colorspace_RGB || heif_image_get_chroma_format(picture.get()) != heif_chroma_444)
+    if (space != heif_colorspace_RGB ||
+        libheif().heif_image_get_chroma_format(picture.get()) != heif_chroma_444)
       throw Error(ErrorKind::unsupported, source.name, "its pixels lie in an order that is not known");
     check_matrix(code_points, source);
   }
-  depth_ = heif_image_get_bits_per_pixel_range(picture.get(), grey_ ? heif_channel_Y : heif_channel_R);
+  depth_ =
+      libheif().heif_image_get_bits_per_pixel_range(picture.get(), grey_ ? heif_channel_Y : heif_channel_R);
   // libheif brings luma and chroma of narrow range to R G B of full range, leaves grey as it is, and makes
   // R G B of narrow range still narrower.
   constexpr int kNarrowBlack = 16, kNarrowWhite = 235, kWhite = 255;
@@ -72,7 +74,7 @@ Planes::Planes(const Picture& picture, const heif_color_profile_nclx* code_point
     for (const heif_channel channel : {heif_channel_R, heif_channel_G, heif_channel_B})
       channels_.push_back(plane(picture, channel, 0, kWhite, source));
   }
-  if (heif_image_has_channel(picture.get(), heif_channel_Alpha) != 0)
+  if (libheif().heif_image_has_channel(picture.get(), heif_channel_Alpha) != 0)
     channels_.push_back(plane(picture, heif_channel_Alpha, 0, kWhite, source));
   for (const Plane& each : channels_) {
     if (each.width != width() || each.height != height())
@@ -85,15 +87,15 @@ Planes::Plane Planes::plane(const Picture& picture, heif_channel channel, int bl
                             const Source& source) const {
   constexpr int kLeastBits = 8, kMostBits = 16, kWhite = 255;
   int stride = 0;
-  const std::uint8_t* data = heif_image_get_plane_readonly(picture.get(), channel, &stride);
-  const int bits = heif_image_get_bits_per_pixel_range(picture.get(), channel);
+  const std::uint8_t* data = libheif().heif_image_get_plane_readonly(picture.get(), channel, &stride);
+  const int bits = libheif().heif_image_get_bits_per_pixel_range(picture.get(), channel);
   if (data == nullptr || bits < kLeastBits || bits > kMostBits)
     throw Error(ErrorKind::damaged, source.name, "a channel of its pixels is missing, or of a strange depth");
   const double largest = std::exp2(bits) - 1, eighth = std::exp2(bits - kLeastBits);
   return {data,
           stride,
-          heif_image_get_width(picture.get(), channel),
-          heif_image_get_height(picture.get(), channel),
+          libheif().heif_image_get_width(picture.get(), channel),
+          libheif().heif_image_get_height(picture.get(), channel),
           bits > kLeastBits,
           black * eighth,
           white == kWhite ? largest : white * eighth,

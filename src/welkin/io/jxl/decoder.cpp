@@ -29,21 +29,22 @@ JxlParallelRetCode run_on_tbb(void* /*runner*/, void* jxl, JxlParallelRunInit in
 }  // namespace
 
 JxlFile::JxlFile(const Source& source, int events)
-    : name_(source.name), decoder_(JxlDecoderCreate(nullptr), JxlDecoderDestroy) {
+    : name_(source.name), decoder_(libjxl().JxlDecoderCreate(nullptr), libjxl().JxlDecoderDestroy) {
   if (decoder_ == nullptr) throw std::bad_alloc();
-  const bool set = JxlDecoderSetParallelRunner(get(), run_on_tbb, nullptr) == JXL_DEC_SUCCESS &&
-                   JxlDecoderSubscribeEvents(get(), events) == JXL_DEC_SUCCESS &&
-                   JxlDecoderSetDecompressBoxes(get(), JXL_TRUE) == JXL_DEC_SUCCESS &&
-                   JxlDecoderSetInput(get(), reinterpret_cast<const std::uint8_t*>(source.bytes.data()),
-                                      source.bytes.size()) == JXL_DEC_SUCCESS;
+  const bool set =
+      libjxl().JxlDecoderSetParallelRunner(get(), run_on_tbb, nullptr) == JXL_DEC_SUCCESS &&
+      libjxl().JxlDecoderSubscribeEvents(get(), events) == JXL_DEC_SUCCESS &&
+      libjxl().JxlDecoderSetDecompressBoxes(get(), JXL_TRUE) == JXL_DEC_SUCCESS &&
+      libjxl().JxlDecoderSetInput(get(), reinterpret_cast<const std::uint8_t*>(source.bytes.data()),
+                                  source.bytes.size()) == JXL_DEC_SUCCESS;
   if (!set) throw Error(ErrorKind::unsupported, name_, "libjxl is built without what is needed to read it");
   // libjxl needs to know the end of a last box. Otherwise it is left open, because libjxl prints what it
   // finds missing before the end of a closed one.
-  if ((events & JXL_DEC_BOX) != 0) JxlDecoderCloseInput(get());
+  if ((events & JXL_DEC_BOX) != 0) libjxl().JxlDecoderCloseInput(get());
 }
 
 JxlDecoderStatus JxlFile::next() {
-  const JxlDecoderStatus status = JxlDecoderProcessInput(get());
+  const JxlDecoderStatus status = libjxl().JxlDecoderProcessInput(get());
   if (status == JXL_DEC_ERROR) fail("the JPEG XL data is malformed");
   if (status == JXL_DEC_NEED_MORE_INPUT) fail("ends early");
   return status;

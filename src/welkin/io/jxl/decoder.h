@@ -1,10 +1,9 @@
 #pragma once
 
-#include <jxl/decode.h>
-
 #include <memory>
 
 #include "welkin/io/format.h"
+#include "welkin/io/jxl/functions.h"
 
 namespace welkin::io {
 

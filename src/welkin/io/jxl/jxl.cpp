@@ -105,22 +105,23 @@ std::optional<std::string> compressed_xmp(const Source& source) {
   bool within = false;
   for (JxlDecoderStatus status = file.next();; status = file.next()) {
     if (within && status != JXL_DEC_BOX_NEED_MORE_OUTPUT) {
-      text.resize(text.size() - JxlDecoderReleaseBoxBuffer(file.get()));
+      text.resize(text.size() - libjxl().JxlDecoderReleaseBoxBuffer(file.get()));
       return text;
     }
     if (status == JXL_DEC_SUCCESS) return text;
     JxlBoxType type;
-    if (!within && JxlDecoderGetBoxType(file.get(), type, JXL_TRUE) == JXL_DEC_SUCCESS &&
+    if (!within && libjxl().JxlDecoderGetBoxType(file.get(), type, JXL_TRUE) == JXL_DEC_SUCCESS &&
         std::memcmp(type, "xml ", sizeof type) == 0) {
       within = true;
     }
     if (!within) continue;
     constexpr std::size_t kStep = std::size_t{1} << 16;
-    const std::size_t filled = text.empty() ? 0 : text.size() - JxlDecoderReleaseBoxBuffer(file.get());
+    const std::size_t filled =
+        text.empty() ? 0 : text.size() - libjxl().JxlDecoderReleaseBoxBuffer(file.get());
     if (filled >= kMaxXmpBytes) return {};
     text.resize(std::max(2 * filled, kStep));
-    JxlDecoderSetBoxBuffer(file.get(), reinterpret_cast<std::uint8_t*>(text.data()) + filled,
-                           text.size() - filled);
+    libjxl().JxlDecoderSetBoxBuffer(file.get(), reinterpret_cast<std::uint8_t*>(text.data()) + filled,
+                                    text.size() - filled);
   }
 }
 
@@ -155,7 +156,8 @@ class JxlReader : public FormatReader {
       if (status == JXL_DEC_NEED_IMAGE_OUT_BUFFER) {
         const JxlPixelFormat format = {static_cast<std::uint32_t>(largest_.size()), JXL_TYPE_FLOAT,
                                        JXL_NATIVE_ENDIAN, 0};
-        if (JxlDecoderSetImageOutCallback(file.get(), &format, Target::take, &target) != JXL_DEC_SUCCESS)
+        if (libjxl().JxlDecoderSetImageOutCallback(file.get(), &format, Target::take, &target) !=
+            JXL_DEC_SUCCESS)
           file.fail("libjxl cannot decode it to floats");
       }
     }
@@ -210,7 +212,8 @@ class JxlReader : public FormatReader {
 
   void read_header(const JxlFile& file) {
     JxlBasicInfo basic;
-    if (JxlDecoderGetBasicInfo(file.get(), &basic) != JXL_DEC_SUCCESS) file.fail("the header is malformed");
+    if (libjxl().JxlDecoderGetBasicInfo(file.get(), &basic) != JXL_DEC_SUCCESS)
+      file.fail("the header is malformed");
     if (basic.have_animation == JXL_TRUE)
       throw Error(ErrorKind::unsupported, source_.name, "an animation, not a picture");
     std::vector<std::string> channels = {"Y"};
@@ -252,7 +255,7 @@ class JxlReader : public FormatReader {
     bool alpha_seen = false;
     for (std::uint32_t i = 0; i < basic.num_extra_channels; ++i) {
       JxlExtraChannelInfo extra;
-      if (JxlDecoderGetExtraChannelInfo(file.get(), i, &extra) != JXL_DEC_SUCCESS)
+      if (libjxl().JxlDecoderGetExtraChannelInfo(file.get(), i, &extra) != JXL_DEC_SUCCESS)
         file.fail("the header is malformed");
       if (extra.type == JXL_CHANNEL_BLACK)
         throw Error(ErrorKind::unsupported, source_.name, "a CMYK picture; save it as RGB");
@@ -267,12 +270,12 @@ class JxlReader : public FormatReader {
   static std::optional<JxlColorEncoding> prefer_original_colour(const JxlFile& file) {
     JxlColorEncoding colour;
     const bool enumerated =
-        JxlDecoderGetColorAsEncodedProfile(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_ORIGINAL, &colour) ==
-        JXL_DEC_SUCCESS;
-    if (enumerated) JxlDecoderSetPreferredColorProfile(file.get(), &colour);
+        libjxl().JxlDecoderGetColorAsEncodedProfile(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_ORIGINAL,
+                                                    &colour) == JXL_DEC_SUCCESS;
+    if (enumerated) libjxl().JxlDecoderSetPreferredColorProfile(file.get(), &colour);
     // Of a picture that has an ICC profile instead, XYB becomes linear, of sRGB's primaries.
-    if (JxlDecoderGetColorAsEncodedProfile(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_DATA, &colour) ==
-        JXL_DEC_SUCCESS) {
+    if (libjxl().JxlDecoderGetColorAsEncodedProfile(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_DATA,
+                                                    &colour) == JXL_DEC_SUCCESS) {
       return colour;
     }
     return {};
@@ -327,12 +330,12 @@ class JxlReader : public FormatReader {
     // As for integers and floats of no declared meaning, should the profile turn out to be damaged.
     const PixelType type = info_.parts[0].type;
     info_.colour = type == PixelType::uint8 || type == PixelType::uint16 ? Colour::srgb : Colour::linear;
-    if (JxlDecoderGetICCProfileSize(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_DATA, &size) ==
+    if (libjxl().JxlDecoderGetICCProfileSize(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_DATA, &size) ==
         JXL_DEC_SUCCESS) {
       declared_.icc.resize(size);
-      if (JxlDecoderGetColorAsICCProfile(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_DATA,
-                                         reinterpret_cast<std::uint8_t*>(declared_.icc.data()),
-                                         size) == JXL_DEC_SUCCESS) {
+      if (libjxl().JxlDecoderGetColorAsICCProfile(file.get(), nullptr, JXL_COLOR_PROFILE_TARGET_DATA,
+                                                  reinterpret_cast<std::uint8_t*>(declared_.icc.data()),
+                                                  size) == JXL_DEC_SUCCESS) {
         return;
       }
     }
