@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "energy_report.h"
+#include "hints.h"
 #include "welkin/base/listed.h"
 #include "welkin/map_file/safety_border.h"
 #include "welkin/measure/energy.h"
@@ -202,7 +203,7 @@ void print_header(const std::string& path, const MapFileInfo& info) {
   }
   for (const std::string& note : info.image.notes) fmt::print("  note              {}\n", note);
   for (const std::string& warning : info.image.warnings)
-    fmt::print("  warning           {}\n", printable(warning));
+    fmt::print("  warning           {}\n", printable(with_option(warning)));
   for (const auto& [key, value] : info.image.attributes) {
     fmt::print("  {:<17} {}\n", printable(key), printable(value.substr(0, value.find('\n'))));
   }

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "command.h"
+#include "hints.h"
 #include "progress.h"
 #include "welkin/base/error.h"
 #include "welkin/base/version.h"
@@ -139,6 +140,6 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return report(1, "out of memory");
   } catch (const std::exception& error) {
-    return report(1, std::ferror(stdout) != 0 ? kNoOutput : error.what());
+    return report(1, std::ferror(stdout) != 0 ? kNoOutput : cli::with_option(error.what()).c_str());
   }
 }

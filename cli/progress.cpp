@@ -10,6 +10,7 @@
 #include <set>
 
 #include "command.h"
+#include "hints.h"
 #include "welkin/io/process.h"
 
 namespace welkin::cli {
@@ -75,7 +76,8 @@ void print_warnings(const std::string& path, const std::vector<std::string>& war
 }
 
 void print_warning(const std::string& path, const std::string& warning) {
-  if (!quiet) print_message(fmt::format("welkin: {}: {}\n", printable(path), printable(warning)));
+  if (!quiet)
+    print_message(fmt::format("welkin: {}: {}\n", printable(path), printable(with_option(warning))));
 }
 
 void set_quiet(bool is_quiet) {

@@ -7,6 +7,7 @@
 #     includes all of them; its functions are exported;
 #   - no library header includes the command line's libraries, which cost every includer seconds of compile time;
 #   - a room's tests are in its CMakeLists.txt, so that they are built;
+#   - the library's messages name no options of the command (`tool --option` of other programs stands between backticks);
 #   - a source file of over 400 lines says why in its first ten.
 #
 # rooms_test.sh [ROOT]     prints each breach as FILE:LINE: what; fails if there is one.
@@ -125,6 +126,10 @@ while IFS= read -r hit; do
   [[ -n $hit ]] || continue
   [[ ${hit%%:*} == *.h ]] && breach "$(cut -d: -f1,2 <<<"$hit"): belongs in a source file: ${hit#*:*:}"
 done < <(includes '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](CLI11|CLI/|nlohmann/|fmt/)' src/welkin)
+
+while IFS= read -r hit; do
+  breach "$(cut -d: -f1,2 <<<"$hit"): a message names an option of the command"
+done < <(grep -rnE --include='*.h' --include='*.cpp' --exclude='*_test.cpp' '"[^"]*--[a-z]' src/welkin | sed -E 's/`[^`]*`//g' | grep -E '"[^"]*--[a-z]')
 
 while IFS= read -r -d '' file; do
   lines=$(wc -l <"$file")

@@ -84,7 +84,7 @@ tells "bake.hdr: .* holds no alpha" bake blender.exr bake.hdr --lobe lambert --s
 
 exr two.exr a.B=$eight a.G=$four a.R=$two beauty.B=$blue beauty.G=$green beauty.R=$red
 shows "0.25 0.5 1" two.exr
-tells "two.exr: holds several pictures, and 'beauty' is read; --layer takes another: 'a'" sample two.exr --dir 0,0,1
+tells "two.exr: holds several pictures, and 'beauty' is read; another layer can be named \(--layer\): 'a'" sample two.exr --dir 0,0,1
 must sample two.exr --dir 0,0,1 --quiet
 shows "2 4 8" two.exr --layer a
 must convert two.exr a.hdr --layer a
@@ -110,7 +110,7 @@ tells "o.png: channels a c d are written as R G B" convert many.exr o.png --chan
 tells "o.hdr: channels d c a are written as R G B" convert many.exr o.hdr --channels d,c,a
 shows "0.75 1 0.25" o.hdr
 tells "o.ktx2: channels a b c d are written as R G B A" convert many.exr o.ktx2 --channels a,b,c,d
-refuses 1 "o.hdr: HDR holds Y or R G B, not a b: name one or three channels with --channels" convert many.exr o.hdr --channels a,b
+refuses 1 "o.hdr: HDR holds Y or R G B, not a b: read one channel or three \(--channels\), or write EXR" convert many.exr o.hdr --channels a,b
 
 # ---- views in the channels' names
 
@@ -129,7 +129,7 @@ exr other.exr B=$eight G=$four R=$two
 if command -v exrmultipart >"$work/found"; then
   exrmultipart -combine -i depth.exr::depth rgb.exr::main other.exr::aov -o parts.exr >"$work/made" 2>&1
   shows "0.25 0.5 1" parts.exr
-  tells "parts.exr: holds several pictures, and 'main' is read; --layer takes another: 'aov'" sample parts.exr --dir 0,0,1
+  tells "parts.exr: holds several pictures, and 'main' is read; another layer can be named \(--layer\): 'aov'" sample parts.exr --dir 0,0,1
   shows "2 4 8" parts.exr --layer aov
   shows "2 4 8" parts.exr --part 2
   shows 7 parts.exr --part 0

@@ -79,7 +79,7 @@ void sort_out(ImageLayer& layer, const std::vector<std::string>& all) {
   if (layer.channels.empty() && !take(LayerKind::depth, {"Z"}, false)) take(LayerKind::alpha, {"A"}, false);
 }
 
-/// What messages call the layer, and --layer takes: `beauty`, `diffuse`, `beauty/diffuse`; empty for plain
+/// What messages call the layer, and ReadMapOptions::layer takes: `beauty`, `diffuse`, `beauty/diffuse`; empty for plain
 /// channels of a picture without a name.
 std::string title_of(const io::FileInfo& file, const ImageLayer& layer) {
   const std::string& part = file.parts[layer.picture].name;
@@ -166,8 +166,8 @@ void warn_of_others(const io::FileInfo& file, const ImageLayer& best, const std:
     others.resize(kNamed);
     others.push_back(std::to_string(count - kNamed) + " more");
   }
-  warnings.push_back("holds several pictures, and " + quoted(file, best) + " is read; " +
-                     (plain_rivals ? "--part" : "--layer") + " takes another: " + listed(others, ", "));
+  warnings.push_back("holds several pictures, and " + quoted(file, best) + " is read; another " +
+                     (plain_rivals ? "part" : "layer") + " can be named: " + listed(others, ", "));
 }
 
 void warn_of_kind(const io::FileInfo& file, const ImageLayer& layer, std::vector<std::string>& warnings) {
@@ -203,7 +203,7 @@ void warn_of_kind(const io::FileInfo& file, const ImageLayer& layer, std::vector
            })))
         return;
       warnings.push_back("no channels are called R G B: " + listed(names) + (one ? " is" : " are") + " read" +
-                         (part.channels.size() > names.size() ? "; --channels takes others" : ""));
+                         (part.channels.size() > names.size() ? "; other channels can be named" : ""));
   }
 }
 

@@ -99,7 +99,7 @@ TEST(ChooseChannels, OfSeveralLayersTheFinishedPictureIsReadAndTheOthersTold) {
     EXPECT_NE(found.warnings[0].find("'" + std::string(name) + "' is read"), std::string::npos)
         << found.warnings[0];
     EXPECT_NE(found.warnings[0].find("'Albedo'"), std::string::npos) << found.warnings[0];
-    EXPECT_NE(found.warnings[0].find("--layer"), std::string::npos) << found.warnings[0];
+    EXPECT_NE(found.warnings[0].find("another layer can be named"), std::string::npos) << found.warnings[0];
   }
   // The first where no name says more, but not one of identifiers.
   EXPECT_EQ(of_one_part({"Crypto00.b", "Crypto00.g", "Crypto00.r", "d.B", "d.G", "d.R", "e.B", "e.G", "e.R"}),
@@ -132,7 +132,7 @@ TEST(ChooseChannels, ThePartWithColourIsRead) {
   EXPECT_EQ(chosen(File().part("a", {"R", "G", "B"}).part("b", {"R", "G", "B"})), "0: R G B !1");
   const ChosenChannels pages = choose(File().part("", {"R", "G", "B"}).part("", {"R", "G", "B"}));
   ASSERT_EQ(pages.warnings.size(), 1u);
-  EXPECT_NE(pages.warnings[0].find("--part takes another: part 1"), std::string::npos) << pages.warnings[0];
+  EXPECT_NE(pages.warnings[0].find("another part can be named: part 1"), std::string::npos) << pages.warnings[0];
 }
 
 TEST(ChooseChannels, DeepPartsAreLeftOutWhereOthersCanBeRead) {

@@ -66,7 +66,7 @@ std::vector<std::string> fit_channels(Map& map, const std::filesystem::path& pat
   if (known.empty()) {
     throw Error(ErrorKind::unsupported, path.string(),
                 format.title + " holds Y or R G B" + (alpha ? ", either with A" : "") + ", not " +
-                    listed(names) + ": name one or three channels with --channels, or write EXR");
+                    listed(names) + ": read one channel or three, or write EXR");
   }
   notes.push_back("channels " + listed(names) + " are written as " + listed(known));
   if (names.size() == 1) notes.back() = "channel " + names.front() + " is written as Y";

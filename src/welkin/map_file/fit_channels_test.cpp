@@ -84,7 +84,7 @@ TEST(FitChannels, WhatDoesNotFitNamesTheRemedy) {
       fitted(names, file);
     } catch (const Error& error) {
       return error.kind() == ErrorKind::unsupported &&
-             std::string(error.what()).find("--channels") != std::string::npos;
+             std::string(error.what()).find("read one channel or three") != std::string::npos;
     }
     return false;
   };
