@@ -38,4 +38,28 @@ std::string_view layer_of_channel(std::string_view name) {
   return dot == std::string_view::npos ? std::string_view() : name.substr(0, dot);
 }
 
+std::vector<ChannelLayer> layers_of_channels(std::span<const std::string> channels) {
+  std::vector<ChannelLayer> layers;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const std::string_view name = layer_of_channel(channels[i]);
+    auto layer = std::find_if(layers.begin(), layers.end(),
+                              [&](const ChannelLayer& each) { return each.name == name; });
+    if (layer == layers.end()) layer = layers.insert(layers.end(), {name, {}});
+    layer->members.push_back(static_cast<int>(i));
+  }
+  return layers;
+}
+
+int channel_that_is(std::string_view meaning, std::span<const std::string> channels,
+                    std::span<const int> members) {
+  int found = -1;
+  for (const int member : members) {
+    const std::string_view name = channels[static_cast<std::size_t>(member)];
+    if (meaning_of_channel(name) != meaning) continue;
+    if (name.substr(name.rfind('.') + 1) == meaning) return member;  // npos + 1 is 0
+    if (found < 0) found = member;
+  }
+  return found;
+}
+
 }  // namespace welkin::io

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// What channels hold by their names, which files spell differently.
 namespace welkin::io {
@@ -12,5 +14,19 @@ std::string_view meaning_of_channel(std::string_view name);
 
 /// What stands before the last dot, the channel's layer; empty without one.
 std::string_view layer_of_channel(std::string_view name);
+
+/// Channels of the same layer.
+struct ChannelLayer {
+  std::string_view name;     ///< refers to the channels' names
+  std::vector<int> members;  ///< indices of the channels
+};
+
+/// The layers of channels, in the order of their first ones.
+std::vector<ChannelLayer> layers_of_channels(std::span<const std::string> channels);
+
+/// The one among `members`, indices of channels, that holds `meaning`: `R` rather than `r` or `red` where
+/// there are both. −1 where there is none.
+int channel_that_is(std::string_view meaning, std::span<const std::string> channels,
+                    std::span<const int> members);
 
 }  // namespace welkin::io

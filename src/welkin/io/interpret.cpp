@@ -40,31 +40,18 @@ TexelWalk walk_of(int orientation, int width, int height) {
   }
 }
 
-/// Channels of a picture that are one colour: `R G B` or `Y`, with `A`; of a layer `diffuse.R`….
+/// Channels of a layer that are one colour: `R G B` or `Y`, with `A`.
 struct ColourGroup {
-  std::string_view layer;
-  int r = -1, g = -1, b = -1, y = -1, a = -1;
+  int r, g, b, y, a;
 
   bool whole() const { return r >= 0 && g >= 0 && b >= 0; }
 };
 
 std::vector<ColourGroup> groups_of(std::span<const std::string> channels) {
   std::vector<ColourGroup> groups;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const std::string_view layer = layer_of_channel(channels[i]), name = meaning_of_channel(channels[i]);
-    auto group =
-        std::find_if(groups.begin(), groups.end(), [&](const auto& each) { return each.layer == layer; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {layer});
-    const std::pair<std::string_view, int ColourGroup::*> places[] = {{"R", &ColourGroup::r},
-                                                                      {"G", &ColourGroup::g},
-                                                                      {"B", &ColourGroup::b},
-                                                                      {"Y", &ColourGroup::y},
-                                                                      {"A", &ColourGroup::a}};
-    for (const auto& [meaning, place] : places) {
-      // `R` rather than `r` or `red`, where there are both.
-      if (meaning == name && ((*group).*place < 0 || channels[i].ends_with(meaning)))
-        (*group).*place = static_cast<int>(i);
-    }
+  for (const ChannelLayer& layer : layers_of_channels(channels)) {
+    const auto find = [&](const char* meaning) { return channel_that_is(meaning, channels, layer.members); };
+    groups.push_back({find("R"), find("G"), find("B"), find("Y"), find("A")});
   }
   return groups;
 }

@@ -40,16 +40,7 @@ std::string meaning_of(const std::string& channel) {
 void sort_out(ImageLayer& layer, const std::vector<std::string>& all) {
   const std::vector<int>& members = layer.members;
   const auto name = [&](int channel) { return all[static_cast<std::size_t>(channel)]; };
-  const auto find = [&](const std::string& meaning) {
-    // `R` rather than `r` or `red`, where there are both.
-    for (const bool exact : {true, false}) {
-      for (const int channel : members) {
-        if (exact ? last_component(name(channel)) == meaning : meaning_of(name(channel)) == meaning)
-          return channel;
-      }
-    }
-    return -1;
-  };
+  const auto find = [&](const std::string& meaning) { return io::channel_that_is(meaning, all, members); };
   const auto take = [&](LayerKind kind, const std::vector<std::string>& meanings, bool alpha) {
     layer.kind = kind;
     for (const std::string& meaning : meanings) {
@@ -79,8 +70,8 @@ void sort_out(ImageLayer& layer, const std::vector<std::string>& all) {
   if (layer.channels.empty() && !take(LayerKind::depth, {"Z"}, false)) take(LayerKind::alpha, {"A"}, false);
 }
 
-/// What messages call the layer, and ReadMapOptions::layer takes: `beauty`, `diffuse`, `beauty/diffuse`; empty for plain
-/// channels of a picture without a name.
+/// What messages call the layer, and ReadMapOptions::layer takes: `beauty`, `diffuse`, `beauty/diffuse`;
+/// empty for plain channels of a picture without a name.
 std::string title_of(const io::FileInfo& file, const ImageLayer& layer) {
   const std::string& part = file.parts[layer.picture].name;
   const bool several = file.parts.size() > static_cast<std::size_t>(file.levels);
@@ -296,15 +287,11 @@ std::optional<std::vector<int>> declared_channels(const io::FileInfo& file, std:
 std::vector<ImageLayer> layers_of(const io::FileInfo& file, std::size_t picture) {
   const std::vector<std::string>& channels = file.parts[picture].channels;
   std::vector<ImageLayer> layers;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const std::string name = layer_of(channels[i]);
-    const auto found = std::find_if(layers.begin(), layers.end(),
-                                    [&](const ImageLayer& layer) { return layer.name == name; });
-    const auto at = static_cast<std::size_t>(found - layers.begin());
-    if (found == layers.end()) layers.push_back({picture, name});
-    layers[at].members.push_back(static_cast<int>(i));
+  for (io::ChannelLayer& each : io::layers_of_channels(channels)) {
+    layers.push_back({picture, std::string(each.name)});
+    layers.back().members = std::move(each.members);
+    sort_out(layers.back(), channels);
   }
-  for (ImageLayer& layer : layers) sort_out(layer, channels);
   return layers;
 }
 
