@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "welkin/map/luminance.h"
 #include "welkin/map_file/map_file_job.h"
 #include "welkin/sphere/convention.h"
 
@@ -31,23 +32,18 @@ std::vector<Face> blank_faces() {
   return faces;
 }
 
-double luminance_at(const Map& map, int face, int x, int y) {
-  const float* const texel = map.level.chart(face).at(x, y);
-  if (map.channels() < 3) return static_cast<double>(texel[0]);
-  return 0.2126 * static_cast<double>(texel[0]) + 0.7152 * static_cast<double>(texel[1]) +
-         0.0722 * static_cast<double>(texel[2]);
-}
-
 /// log₂ of luminance over the map's mean, so that dark and bright edges count alike; the darkest count for
 /// little.
 std::vector<Face> faces_of(const Map& map) {
   std::vector<Face> faces = blank_faces();
+  const TexelLuminance luminance(map.channel_names);
   double sum = 0;
   for (int face = 0; face < kFaces; ++face) {
     Face& small = faces[static_cast<std::size_t>(face)];
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
-        const double value = luminance_at(map, face, texel_at(x, map.width()), texel_at(y, map.height()));
+        const double value = static_cast<double>(
+            luminance(map.level.chart(face).at(texel_at(x, map.width()), texel_at(y, map.height()))));
         const double kept = std::isfinite(value) ? std::max(value, 0.0) : 0;
         *small.at(x, y) = static_cast<float>(kept);
         sum += std::min(kept, 1e30);

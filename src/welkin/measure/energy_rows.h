@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "welkin/map/luminance.h"
 #include "welkin/map/map.h"
 #include "welkin/measure/energy.h"
-#include "welkin/measure/luminance.h"
 
 /// Energy of rows of texels. Internal to measure.
 namespace welkin {

@@ -7,11 +7,11 @@
 #include <map>
 
 #include "welkin/base/parallel.h"
+#include "welkin/map/luminance.h"
 #include "welkin/map/row_bands.h"
 #include "welkin/map/texel_points.h"
 #include "welkin/math/angles.h"
 #include "welkin/measure/energy_rows.h"
-#include "welkin/measure/luminance.h"
 #include "welkin/measure/statistics.h"
 
 namespace welkin {

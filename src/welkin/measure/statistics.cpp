@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "welkin/base/parallel.h"
+#include "welkin/map/luminance.h"
 #include "welkin/map/row_bands.h"
-#include "welkin/measure/luminance.h"
 
 namespace welkin {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "welkin/base/parallel.h"
-#include "welkin/measure/luminance.h"
+#include "welkin/map/luminance.h"
 
 namespace welkin::prefilter {
 namespace {
