@@ -109,6 +109,18 @@ std::optional<GainMapMetadata> gain_map_metadata(std::span<const std::byte> byte
   return metadata;
 }
 
+void declare_gain_map(const GainMapMetadata& metadata, std::unique_ptr<Reader> reader, Declared& declared,
+                      FileInfo& info) {
+  if (metadata.base_is_hdr) {
+    info.notes.push_back("its gain map makes a picture of lower range, and is left out");
+    return;
+  }
+  if (!metadata.base_colour_space)
+    info.warnings.push_back(
+        "its gain map is of other primaries than its picture; it is applied all the same");
+  declared.gain_map = std::make_shared<GainMap>(metadata, std::move(reader));
+}
+
 double GainMap::stops() const {
   return *std::max_element(metadata_.maximum.begin(), metadata_.maximum.end());
 }

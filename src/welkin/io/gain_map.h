@@ -8,6 +8,7 @@
 #include <string>
 
 #include "welkin/image/image.h"
+#include "welkin/io/declared.h"
 #include "welkin/io/image_file.h"
 #include "welkin/io/xmp.h"
 
@@ -56,5 +57,10 @@ class GainMap {
   std::mutex mutex_;
   std::optional<Image> picture_;
 };
+
+/// Has the gain map applied when the file's picture is read, unless that is HDR without it; notes and warns
+/// of what is left out.
+void declare_gain_map(const GainMapMetadata& metadata, std::unique_ptr<Reader> reader, Declared& declared,
+                      FileInfo& info);
 
 }  // namespace welkin::io

@@ -231,14 +231,7 @@ class JpegReader : public FormatReader {
               "a gain map as Apple writes it is left out: only the picture without it is read");
         const auto metadata = reader->gain_map();
         if (!metadata) continue;
-        if (metadata->base_is_hdr) {
-          info_.notes.push_back("its gain map makes a picture of lower range, and is left out");
-        } else {
-          if (!metadata->base_colour_space)
-            info_.warnings.push_back(
-                "its gain map is of other primaries than its picture; it is applied all the same");
-          declared_.gain_map = std::make_shared<GainMap>(*metadata, std::move(reader));
-        }
+        declare_gain_map(*metadata, std::move(reader), declared_, info_);
         return;
       }
     } catch (const Error& error) {

@@ -7,7 +7,9 @@
 #include "welkin/io/boxes.h"
 #include "welkin/io/code_points.h"
 #include "welkin/io/decode_pixels.h"
+#include "welkin/io/gain_map.h"
 #include "welkin/io/jxl/decoder.h"
+#include "welkin/io/jxl/gain_map_box.h"
 #include "welkin/io/transfer.h"
 
 /// JPEG XL (ISO/IEC 18181), by libjxl.
@@ -136,6 +138,7 @@ class JxlReader : public FormatReader {
       if (status == JXL_DEC_BASIC_INFO) read_header(file);
       if (status == JXL_DEC_COLOR_ENCODING) {
         read_colour(file);
+        find_gain_map();
         return;
       }
     }
@@ -200,6 +203,9 @@ class JxlReader : public FormatReader {
         }
       }
       if (box->type == "brob" && content.starts_with("xml ")) compressed = true;
+      if (box->type == "brob" && content.starts_with("jhgm"))
+        info_.warnings.push_back("its gain map is compressed, and left out, so that it is not HDR");
+      if (box->type == "jhgm") gain_map_box_ = box->content;
       if (box->type == "jbrd") from_jpeg_ = true;
     }
     if (compressed && declared_.xmp.empty()) {
@@ -208,6 +214,21 @@ class JxlReader : public FormatReader {
       declared_.xmp = std::move(xmp).value_or("");
     }
     if (too_large) info_.warnings.push_back("its XMP packet is too large, and not read");
+  }
+
+  void find_gain_map() {
+    if (!gain_map_box_) return;
+    try {
+      const JxlGainMapBox box = parse_jxl_gain_map_box(*gain_map_box_);
+      const auto metadata = gain_map_metadata(box.metadata);
+      if (!metadata) throw Error(ErrorKind::damaged, "it has no metadata");
+      ReadOptions options = source_.options;
+      options.colour = Colour::linear;
+      declare_gain_map(*metadata, std::make_unique<JxlReader>(Source{box.codestream, source_.name, options}),
+                       declared_, info_);
+    } catch (const Error& error) {
+      info_.warnings.push_back("its gain map is left out, so that it is not HDR: " + error.cause());
+    }
   }
 
   void read_header(const JxlFile& file) {
@@ -348,6 +369,7 @@ class JxlReader : public FormatReader {
   Source source_;
   std::vector<double> largest_;  ///< see Target
   bool premultiplied_ = false, from_jpeg_ = false;
+  std::optional<std::span<const std::byte>> gain_map_box_;
 };
 
 std::unique_ptr<FormatReader> open_jxl(const Source& source) {
