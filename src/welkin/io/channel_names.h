@@ -8,6 +8,9 @@
 /// What channels hold by their names, which files spell differently.
 namespace welkin::io {
 
+/// The attribute that names a map's channels, `R,G,B`, where its file's format may have added others.
+inline constexpr const char* kChannelsKey = "welkin.channels";
+
 /// `R`, `G`, `B`, `A`, `Y`, `X` or `Z` by what stands behind the last dot: `diffuse.R`, `r` and `Red` are
 /// `R`, `luminance` is `Y`, `depth` is `Z`. Empty for other names.
 std::string_view meaning_of_channel(std::string_view name);

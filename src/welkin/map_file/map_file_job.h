@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "welkin/base/number_text.h"
+#include "welkin/io/channel_names.h"
 #include "welkin/map_file/choose_channels.h"
 #include "welkin/map_file/layout.h"
 #include "welkin/map_file/map_file.h"
@@ -21,7 +22,7 @@ inline constexpr const char* kFacesKey = "welkin.faces";
 inline constexpr const char* kChartKey = "welkin.chart";
 inline constexpr const char* kOrientationKey = "welkin.orientation";
 inline constexpr const char* kBorderKey = "welkin.border";
-inline constexpr const char* kChannelsKey = "welkin.channels";  // where the format may add others
+using io::kChannelsKey;
 
 /// MapFileInfo::reason of a shape that PartInfo::envmap declares.
 inline constexpr const char* kByEnvmap = "declared by the envmap attribute";

@@ -184,6 +184,18 @@ TEST(Ktx2Kinds, WrittenAlphaIsFlaggedAsMultiplied) {
   }
 }
 
+// There is nothing to multiply by then, and no note of it.
+TEST(Ktx2Kinds, AlphaThatWasAddedIsNoAlpha) {
+  for (const char* channels : {"R,G,B", "R,G,B,A"}) {
+    WriteOptions options;
+    options.attributes["welkin.channels"] = channels;
+    const Bytes bytes = encoded("ktx2", noise(3, 2, 3), options);
+    const bool added = std::string(channels) == "R,G,B";
+    EXPECT_EQ(declared_of(bytes).alpha, added ? AlphaKind::associated : AlphaKind::straight);
+    EXPECT_EQ(info_of(bytes).notes.empty(), added);
+  }
+}
+
 TEST(Ktx2Kinds, TransferAndPrimariesAreDeclared) {
   const auto with = [](std::uint32_t transfer, std::uint32_t primaries) {
     return row(91, Bytes(8), [&](OtherFile& file) { file.transfer = transfer, file.primaries = primaries; });

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "welkin/base/error.h"
+#include "welkin/io/channel_names.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/format.h"
 #include "welkin/io/ktx2/descriptor.h"
@@ -109,6 +110,12 @@ class Ktx2Reader final : public FormatReader {
     info_.notes.push_back("its channels are rearranged as KTXswizzle says: " + swizzle);
   }
 
+  /// Whether A is 1 because the map had none.
+  bool is_alpha_added() const {
+    const auto names = info_.attributes.find(kChannelsKey);
+    return names != info_.attributes.end() && ("," + names->second + ",").find(",A,") == std::string::npos;
+  }
+
   /// Which way texels and rows run, `rd` being the way of images here.
   void turn(const std::string& orientation) {
     const std::size_t axes = header_.one_dimensional ? 1 : 2;
@@ -128,7 +135,7 @@ class Ktx2Reader final : public FormatReader {
   void list_parts() {
     std::vector<std::string> names;
     for (const Channel& channel : channels_) names.push_back(channel.name);
-    if (channels_.back().name == "A")
+    if (channels_.back().name == "A" && !is_alpha_added())
       declared_.alpha = premultiplied_ ? AlphaKind::associated : AlphaKind::straight;
     for (int level = 0; level < info_.levels; ++level) {
       const auto index = static_cast<std::size_t>(level);
