@@ -330,6 +330,51 @@ TEST(TiffKinds, ColourFieldsAreDeclared) {
   EXPECT_EQ(info_of(file).warnings.at(0), "its TransferFunction is not obeyed");
 }
 
+// 33300 and 33301 are the whole's size, 286 and 287 the position in units of 282 and 283.
+TEST(TiffKinds, PartsOfPanoramasAreDeclared) {
+  OtherTiff tiff{.width = 30, .height = 20, .data = Bytes(600)};
+  const auto with = [&](std::uint32_t width, std::uint32_t height,
+                        std::map<int, OtherTiff::Value> fields = {}) {
+    tiff.more = std::move(fields);
+    tiff.more[33300] = {4, {width}};
+    tiff.more[33301] = {4, {height}};
+    return info_of(tiff.file());
+  };
+  const std::map<int, OtherTiff::Value> hugins{{282, rational({150000000})},
+                                               {283, rational({150000000})},
+                                               {286, rational({50 * 1000000 / 150})},
+                                               {287, rational({7 * 1000000 / 150})}};
+  FileInfo info = with(200, 100, hugins);
+  ASSERT_TRUE(info.panorama);
+  Panorama expected;
+  expected.projection = "equirectangular";
+  expected.full_width = 200;
+  expected.full_height = 100;
+  expected.crop_width = 30;
+  expected.crop_height = 20;
+  expected.crop_left = 50;
+  expected.crop_top = 7;
+  EXPECT_EQ(*info.panorama, expected);
+  EXPECT_EQ(info.warnings.at(0),
+            "cut out of a picture of 200×100 texels, at 50, 7; taken for a part of a lat-long");
+
+  info = with(200, 100, {{282, rational({72000000})}, {286, rational({50000000})}});
+  EXPECT_EQ(info.panorama->crop_left, 50) << "texels, as other writers have it";
+  EXPECT_EQ(info.panorama->crop_top, 0);
+
+  info = with(200, 150, hugins);
+  EXPECT_FALSE(info.panorama);
+  EXPECT_EQ(info.warnings.at(0),
+            "cut out of a picture of 200×150 texels, at 50, 7; read as if it were the whole");
+  for (const FileInfo& wrong :
+       {with(20, 10), with(200, 100, {{286, rational({171000000})}}),
+        with(200, 100, {{286, rational({50500000})}}), with(0xffffffff, 0x7fffffff)}) {
+    EXPECT_FALSE(wrong.panorama);
+    EXPECT_NE(wrong.warnings.at(0).find("which cannot be: read as it is"), std::string::npos);
+  }
+  EXPECT_TRUE(with(30, 20).warnings.empty());
+}
+
 TEST(TiffKinds, PagesThatDifferAreTold) {
   OtherTiff first{.samples = 4, .photometric = 2, .data = Bytes(4)}, second = first;
   first.more[338] = second.more[338] = {3, {2}};

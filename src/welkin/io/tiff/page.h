@@ -36,6 +36,7 @@ struct TiffPage {
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   Declared declared;  ///< but for its alpha
+  std::optional<Panorama> panorama;
   /// Of the channel A: whether colours are multiplied by it; nothing where there is none.
   std::optional<bool> associated;
 };

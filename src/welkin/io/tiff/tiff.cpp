@@ -135,6 +135,7 @@ class TiffReader : public FormatReader {
   /// The first page's declarations, for all; alpha is that of the first page that has any.
   void declare() {
     declared_ = pages_.front().declared;
+    info_.panorama = pages_.front().panorama;
     const auto with_alpha =
         std::find_if(pages_.begin(), pages_.end(), [](const TiffPage& page) { return page.associated; });
     std::optional<bool> associated;
@@ -152,6 +153,7 @@ class TiffReader : public FormatReader {
       note(!page.associated || page.associated == associated, "kind of alpha");
       note(page.declared.icc == declared_.icc, "ICC profile");
       note(page.declared.primaries == declared_.primaries, "primaries");
+      note(page.panorama == info_.panorama, "what they are cut out of");
     }
     if (!differ.empty())
       info_.warnings.push_back("its pages differ in " + differ + "; all are read as the first of them says");
