@@ -14,7 +14,7 @@
 #include "welkin/base/error.h"
 #include "welkin/io/heif/heif_test_files.h"
 #include "welkin/io/image_file.h"
-#include "welkin/io/jxl/jxl_test_files.h"
+#include "welkin/io/jxl/gain_map_test_files.h"
 
 /// Writes small files of every format, type and compression that the library writes, of the formats that it
 /// only reads, and some that others write: the seeds of the fuzzers.
@@ -197,6 +197,10 @@ void write_jxl_seeds(const fs::path& folder) {
            io::test::encoded_jxl(test_picture(17, 9, channels), options));
     }
   }
+  save(folder / "gain_map.jxl",
+       io::test::jxl_with_box(test_picture(17, 9, 3), "jhgm",
+                              io::test::gain_map_box(io::test::gain_map_metadata_bytes(),
+                                                     io::test::encoded_jxl(test_picture(5, 3, 1)))));
 }
 
 /// Written pages whose samples are said to be of other bits and formats, no longer ones.

@@ -1,45 +1,15 @@
 #include "welkin/io/gain_map.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "welkin/io/jxl/gain_map_box.h"
-#include "welkin/io/jxl/jxl_test_files.h"
+#include "welkin/io/jxl/gain_map_test_files.h"
 #include "welkin/io/test_readers.h"
 #include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {
-
-void append(Bytes& bytes, const Bytes& more) {
-  bytes.insert(bytes.end(), more.begin(), more.end());
-}
-
-Bytes big_endian(std::uint64_t value, int bytes) {
-  Bytes text;
-  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
-    text.push_back(static_cast<std::byte>(value >> shift & 255));
-  return text;
-}
-
-/// ISO 21496-1's, of fractions: headrooms 0 and `headroom`, minimum 0, maximum 3, gamma 1, both offsets 0.
-Bytes metadata(unsigned headroom = 3) {
-  Bytes bytes = big_endian(0x00000000'40, 5);
-  for (const unsigned number : {0u, 1u, headroom, 1u, 0u, 1u, 3u, 1u, 1u, 1u, 0u, 1u, 0u, 1u})
-    append(bytes, big_endian(number, 4));
-  return bytes;
-}
-
-Bytes box_content(const Bytes& metadata, const Bytes& codestream, unsigned version = 0) {
-  Bytes content = big_endian(version, 1);
-  append(content, big_endian(metadata.size(), 2));
-  append(content, metadata);
-  append(content, big_endian(3, 1));  // colours and a profile of the alternate picture
-  append(content, bytes_of("abc"));
-  append(content, big_endian(5, 4));
-  append(content, bytes_of("defgh"));
-  append(content, codestream);
-  return content;
-}
 
 Image of_value(int width, int height, int channels, double value) {
   return picture_of(width, height, channels, [&](int, int, int) { return value; });
@@ -49,13 +19,7 @@ constexpr double kBase = 188 / 255.0;
 
 /// A picture of kBase, with that box behind it.
 Bytes file_with(const Bytes& content, const char* type = "jhgm") {
-  JxlOptions options;
-  options.container = true;
-  Bytes file = encoded_jxl(of_value(16, 8, 3, kBase), options);
-  append(file, big_endian(content.size() + 8, 4));
-  append(file, bytes_of(type));
-  append(file, content);
-  return file;
+  return jxl_with_box(of_value(16, 8, 3, kBase), type, content);
 }
 
 bool warns_of(const Bytes& file, const std::string& words) {
@@ -69,7 +33,7 @@ bool warns_of(const Bytes& file, const std::string& words) {
 TEST(JxlGainMap, MakesThePictureHdr) {
   for (const int channels : {1, 3}) {
     const Image gains = picture_of(2, 1, channels, [](int x, int, int) { return x; });
-    const Bytes file = file_with(box_content(metadata(), encoded_jxl(gains)));
+    const Bytes file = file_with(gain_map_box(gain_map_metadata_bytes(), encoded_jxl(gains)));
     const FileInfo info = info_of(file);
     EXPECT_TRUE(info.warnings.empty()) << info.warnings.front();
     EXPECT_EQ(info.notes.at(0), "made HDR by its gain map, of up to 3 stops");
@@ -87,26 +51,24 @@ TEST(JxlGainMap, LeftOutAndTold) {
   const double plain = srgb_to_linear(kBase);
   const auto expect_plain = [&](const Bytes& file) { EXPECT_NEAR(decoded(file).at(3, 3)[0], plain, 1e-6); };
   // A base of more headroom than the alternate: the map makes it darker.
-  Bytes darker = metadata(3);
-  std::swap_ranges(darker.begin() + 5, darker.begin() + 13, darker.begin() + 13);
-  const Bytes hdr = file_with(box_content(darker, gains));
+  const Bytes hdr = file_with(gain_map_box(gain_map_metadata_bytes(3, 0), gains));
   EXPECT_TRUE(info_of(hdr).warnings.empty());
   expect_plain(hdr);
 
-  const Bytes later = file_with(box_content(metadata(), gains, 1));
+  const Bytes later = file_with(gain_map_box(gain_map_metadata_bytes(), gains, 1));
   EXPECT_TRUE(warns_of(later, "not HDR: its gain map's box is of a later version"));
   expect_plain(later);
 
-  const Bytes content = box_content(metadata(), gains);
+  const Bytes content = gain_map_box(gain_map_metadata_bytes(), gains);
   for (const std::size_t size : {1u, 2u, 40u, 70u, 78u}) {
     const Bytes cut = file_with(Bytes(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(size)));
     EXPECT_TRUE(warns_of(cut, "its gain map is left out, so that it is not HDR")) << size;
     expect_plain(cut);
   }
-  EXPECT_TRUE(warns_of(file_with(box_content({}, gains)), "not HDR: it has no metadata"));
+  EXPECT_TRUE(warns_of(file_with(gain_map_box({}, gains)), "not HDR: it has no metadata"));
 
   // Boxes within the box would nest without end.
-  const Bytes nested = file_with(box_content(metadata(), file_with(content)));
+  const Bytes nested = file_with(gain_map_box(gain_map_metadata_bytes(), file_with(content)));
   EXPECT_TRUE(warns_of(nested, "holds no picture"));
   expect_plain(nested);
 
@@ -116,7 +78,8 @@ TEST(JxlGainMap, LeftOutAndTold) {
 }
 
 TEST(JxlGainMap, DamageIsSurvived) {
-  expect_cuts_and_damage_are_survived(file_with(box_content(metadata(), encoded_jxl(of_value(4, 2, 1, 1)))));
+  expect_cuts_and_damage_are_survived(
+      file_with(gain_map_box(gain_map_metadata_bytes(), encoded_jxl(of_value(4, 2, 1, 1)))));
 }
 
 }  // namespace
