@@ -7,7 +7,7 @@
 #include <span>
 
 #include "welkin/base/error.h"
-#include "welkin/io/gain_map.h"
+#include "welkin/io/colour/gain_map.h"
 #include "welkin/io/jpeg/pictures.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "welkin/base/error.h"
-#include "welkin/io/icc_profile.h"
+#include "welkin/io/colour/icc_profile.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace welkin;

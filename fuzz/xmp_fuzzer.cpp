@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "welkin/base/error.h"
-#include "welkin/io/gain_map.h"
+#include "welkin/io/colour/gain_map.h"
 #include "welkin/io/xmp.h"
 
 namespace {

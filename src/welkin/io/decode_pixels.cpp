@@ -8,7 +8,7 @@
 #include <cassert>
 
 #include "welkin/io/byte_order.h"
-#include "welkin/io/transfer.h"
+#include "welkin/io/colour/transfer.h"
 
 namespace welkin::io {
 namespace {

@@ -11,9 +11,9 @@
 #include <cstring>
 #include <set>
 
+#include "welkin/io/colour/srgb_encoder.h"
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/decode_pixels.h"
-#include "welkin/io/srgb_encoder.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io {
 namespace {

@@ -7,11 +7,11 @@
 #include "welkin/base/parallel.h"
 #include "welkin/image/texel_walk.h"
 #include "welkin/io/channel_names.h"
-#include "welkin/io/code_points.h"
-#include "welkin/io/colour_space.h"
-#include "welkin/io/gain_map.h"
-#include "welkin/io/icc_profile.h"
-#include "welkin/io/transfer.h"
+#include "welkin/io/colour/code_points.h"
+#include "welkin/io/colour/colour_space.h"
+#include "welkin/io/colour/gain_map.h"
+#include "welkin/io/colour/icc_profile.h"
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/xmp.h"
 
 namespace welkin::io {

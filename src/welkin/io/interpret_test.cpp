@@ -2,10 +2,10 @@
 
 #include <lcms2.h>
 
-#include "welkin/io/code_points.h"
-#include "welkin/io/colour_space.h"
+#include "welkin/io/colour/code_points.h"
+#include "welkin/io/colour/colour_space.h"
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/test_pictures.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

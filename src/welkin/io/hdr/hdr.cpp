@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "welkin/base/error.h"
+#include "welkin/io/colour/xyz.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/hdr/header.h"
 #include "welkin/io/hdr/lines.h"
 #include "welkin/io/hdr/rgbe.h"
 #include "welkin/io/hdr/writer.h"
-#include "welkin/io/xyz.h"
 
 namespace welkin::io {
 namespace {

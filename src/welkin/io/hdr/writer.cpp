@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/encode_pixels.h"
 #include "welkin/io/hdr/lines.h"
 #include "welkin/io/hdr/rgbe.h"
 #include "welkin/io/part_rows.h"
 #include "welkin/io/text_attributes.h"
-#include "welkin/io/transfer.h"
 #include "welkin/io/write_choices.h"
 
 namespace welkin::io {

@@ -6,7 +6,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/boxes.h"
-#include "welkin/io/code_points.h"
+#include "welkin/io/colour/code_points.h"
 #include "welkin/io/heif/planes.h"
 
 /// AVIF and HEIF (ISO/IEC 23008-12), by libheif.

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "welkin/io/code_points.h"
+#include "welkin/io/colour/code_points.h"
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/heif/heif_test_pictures.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

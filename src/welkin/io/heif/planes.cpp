@@ -5,7 +5,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
-#include "welkin/io/transfer.h"
+#include "welkin/io/colour/transfer.h"
 
 namespace welkin::io::heif {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include "welkin/base/error.h"
+#include "welkin/io/colour/gain_map.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/exif.h"
-#include "welkin/io/gain_map.h"
 #include "welkin/io/jpeg/guard.h"
 #include "welkin/io/jpeg/pictures.h"
 #include "welkin/io/text_attributes.h"

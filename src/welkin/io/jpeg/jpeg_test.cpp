@@ -4,10 +4,10 @@
 
 #include <jpeglib.h>
 
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/exif.h"
 #include "welkin/io/jpeg/jpeg_test_files.h"
 #include "welkin/io/test_pictures.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

@@ -1,12 +1,12 @@
-#include "welkin/io/gain_map.h"
+#include "welkin/io/colour/gain_map.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/jxl/gain_map_box.h"
 #include "welkin/io/jxl/gain_map_test_files.h"
 #include "welkin/io/test_readers.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/boxes.h"
-#include "welkin/io/code_points.h"
+#include "welkin/io/colour/code_points.h"
+#include "welkin/io/colour/gain_map.h"
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/decode_pixels.h"
-#include "welkin/io/gain_map.h"
 #include "welkin/io/jxl/decoder.h"
 #include "welkin/io/jxl/gain_map_box.h"
-#include "welkin/io/transfer.h"
 
 /// JPEG XL (ISO/IEC 18181), by libjxl.
 namespace welkin::io {

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "welkin/io/code_points.h"
+#include "welkin/io/colour/code_points.h"
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/jxl/jxl_test_files.h"
 #include "welkin/io/test_readers.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

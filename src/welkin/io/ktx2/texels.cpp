@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "welkin/io/byte_order.h"
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/shared_exponent.h"
 #include "welkin/io/small_float.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::ktx2 {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
-#include "welkin/io/code_points.h"
+#include "welkin/io/colour/code_points.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/exif.h"
 #include "welkin/io/png/guard.h"

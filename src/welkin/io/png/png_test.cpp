@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/png/png_test_files.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

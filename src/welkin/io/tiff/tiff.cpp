@@ -13,12 +13,12 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
+#include "welkin/io/colour/xyz.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/tiff/failure.h"
 #include "welkin/io/tiff/file.h"
 #include "welkin/io/tiff/page.h"
 #include "welkin/io/unread_formats.h"
-#include "welkin/io/xyz.h"
 
 namespace welkin::io {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/test_pictures.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/test_pictures.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

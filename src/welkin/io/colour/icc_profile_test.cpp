@@ -1,4 +1,4 @@
-#include "welkin/io/icc_profile.h"
+#include "welkin/io/colour/icc_profile.h"
 
 #include <lcms2.h>
 

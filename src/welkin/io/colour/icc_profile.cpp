@@ -1,4 +1,4 @@
-#include "welkin/io/icc_profile.h"
+#include "welkin/io/colour/icc_profile.h"
 
 #include <lcms2.h>
 #include <lcms2_plugin.h>
@@ -16,8 +16,8 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/io/byte_order.h"
-#include "welkin/io/colour_space.h"
-#include "welkin/io/transfer.h"
+#include "welkin/io/colour/colour_space.h"
+#include "welkin/io/colour/transfer.h"
 
 namespace welkin::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "welkin/io/code_points.h"
+#include "welkin/io/colour/code_points.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "welkin/io/transfer.h"
+#include "welkin/io/colour/transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "welkin/io/srgb_encoder.h"
+#include "welkin/io/colour/srgb_encoder.h"
 
 namespace welkin::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "welkin/io/gain_map.h"
+#include "welkin/io/colour/gain_map.h"
 
 #include <algorithm>
 #include <bit>

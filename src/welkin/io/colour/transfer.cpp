@@ -1,4 +1,4 @@
-#include "welkin/io/transfer.h"
+#include "welkin/io/colour/transfer.h"
 
 #include <cmath>
 #include <vector>

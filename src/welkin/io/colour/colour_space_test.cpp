@@ -1,11 +1,11 @@
-#include "welkin/io/colour_space.h"
+#include "welkin/io/colour/colour_space.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "welkin/base/error.h"
-#include "welkin/io/code_points.h"
+#include "welkin/io/colour/code_points.h"
 
 namespace welkin::io {
 namespace {

@@ -1,9 +1,9 @@
-#include "welkin/io/srgb_encoder.h"
+#include "welkin/io/colour/srgb_encoder.h"
 
 #include <cmath>
 #include <limits>
 
-#include "welkin/io/transfer.h"
+#include "welkin/io/colour/transfer.h"
 
 namespace welkin::io {
 

@@ -1,9 +1,9 @@
-#include "welkin/io/gain_map.h"
+#include "welkin/io/colour/gain_map.h"
 
 #include <cmath>
 
+#include "welkin/io/colour/transfer.h"
 #include "welkin/io/jpeg/jpeg_test_files.h"
-#include "welkin/io/transfer.h"
 
 namespace welkin::io::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "welkin/io/colour_space.h"
+#include "welkin/io/colour/colour_space.h"
 
 #include <algorithm>
 #include <cmath>
