@@ -17,14 +17,16 @@ std::vector<float> bends_of(const sphere::AnyParameterization& p, int height) {
   return bend;
 }
 
-/// Eight times the mean of each channel, by a grid of texels.
-std::vector<float> bright_of(const Level& level) {
+/// Eight times the mean of each channel, by a grid of valid texels.
+std::vector<float> bright_of(const sphere::AnyParameterization& p, const Level& level) {
+  const bool full = p.full_charts();
   const std::size_t channels = static_cast<std::size_t>(level.channels());
   std::vector<double> sum(channels), count(channels);
   const int step_x = std::max(1, level.width() / 256), step_y = std::max(1, level.height() / 256);
   for (int chart = 0; chart < level.charts(); ++chart) {
     for (int y = step_y / 2; y < level.height(); y += step_y) {
       for (int x = step_x / 2; x < level.width(); x += step_x) {
+        if (!full && !p.valid(chart, (x + 0.5) / level.width(), (y + 0.5) / level.height())) continue;
         const float* texel = level.chart(chart).at(x, y);
         for (std::size_t c = 0; c < channels; ++c) {
           const double value = std::fabs(static_cast<double>(texel[c]));
@@ -51,7 +53,7 @@ OverlapMeans::OverlapMeans(const sphere::AnyParameterization& source, const Leve
       reconstructed_(reconstructed),
       full_(source.full_charts()),
       by_row_(source.density_by_row() && full_),
-      bright_(bright_of(level)) {
+      bright_(bright_of(source, level)) {
   how_.limited = limited;
   how_.bright = bright_.data();
   if (!by_row_) return;

@@ -58,19 +58,19 @@ void ReconstructedTexels::reset(int new_chart, int new_x, int new_y, int new_wid
   const std::size_t row = static_cast<std::size_t>(width * channels) + kPack;
   const std::size_t rows = static_cast<std::size_t>(height + 2 * kReconstructionReach + 2);
   coefficients.resize(static_cast<std::size_t>(kCoefficients * plane()) + kPack);
-  beside_light.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  hard.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   scratch.resize(row * rows);
 }
 
-void ReconstructedTexels::count_lights() {
+void ReconstructedTexels::count_hard() {
   const std::size_t columns = static_cast<std::size_t>(width) + 1;
-  lights.assign(columns * (static_cast<std::size_t>(height) + 1), 0);
-  const std::uint8_t* light = beside_light.data();
+  counts.assign(columns * (static_cast<std::size_t>(height) + 1), 0);
+  const std::uint8_t* texel = hard.data();
   for (std::size_t row = 1; row <= static_cast<std::size_t>(height); ++row) {
     std::int32_t sum = 0;
-    for (std::size_t column = 1; column < columns; ++column) {
-      sum += *light++;
-      lights[row * columns + column] = lights[(row - 1) * columns + column] + sum;
+    for (std::size_t column = 1; column < columns; ++column, ++texel) {
+      sum += *texel == kIsLight ? kLights : *texel;
+      counts[row * columns + column] = counts[(row - 1) * columns + column] + sum;
     }
   }
 }

@@ -41,6 +41,14 @@ inline constexpr float kBeyond = 0.5f;
 /// smallest of the 3×3 texels.
 inline constexpr float kDeep = 2.0f;
 
+/// Texels that differ from those around by more than this share of the map's mean are uneven: where they
+/// meet, radiance may jump, and few points miss where.
+inline constexpr float kUneven = 0.25f;
+/// ReconstructedTexels::hard.
+inline constexpr std::uint8_t kIsUneven = 1, kIsLight = 2;
+/// What a light adds to ReconstructedTexels::counts; rectangles have fewer texels.
+inline constexpr std::int32_t kLights = 1 << 16;
+
 /// How a source is reconstructed.
 struct Reconstruction {
   bool limited = true;  ///< see above
@@ -56,20 +64,22 @@ struct ReconstructedTexels {
   /// Plane after plane; each holds the texels row by row, their channels interleaved. Readable for 8 values
   /// past the end.
   std::vector<float> coefficients;
-  /// Of each texel, whether it is part of a light or beside one: sums over points are not exact enough there.
-  std::vector<std::uint8_t> beside_light;
-  /// Sums of that over the texels above and to the left of each, one more column and row.
-  std::vector<std::int32_t> lights;
+  /// Of each texel, kIsLight where it is part of a light or beside one: sums over points are not exact enough
+  /// there. kIsUneven where they need more points. Else 0.
+  std::vector<std::uint8_t> hard;
+  /// How many there are of each above and to the left of each texel, one more column and row: of lights times
+  /// kLights, and uneven ones.
+  std::vector<std::int32_t> counts;
   std::vector<float> scratch;
 
   /// Another rectangle, of unspecified reconstructions.
   void reset(int new_chart, int new_x, int new_y, int new_width, int new_height, int new_channels);
 
-  /// Adds up `lights`.
-  void count_lights();
-  /// How many of the texels from (left, top) to (right, bottom) are beside a light.
-  std::int32_t lights_in(int left, int top, int right, int bottom) const {
-    const std::int32_t* row = lights.data() - x;
+  /// Adds up `counts`.
+  void count_hard();
+  /// The counts of the texels from (left, top) to (right, bottom).
+  std::int32_t hard_in(int left, int top, int right, int bottom) const {
+    const std::int32_t* row = counts.data() - x;
     const std::ptrdiff_t above = static_cast<std::ptrdiff_t>(top - y) * (width + 1),
                          below = static_cast<std::ptrdiff_t>(bottom + 1 - y) * (width + 1);
     return row[below + right + 1] - row[below + left] - row[above + right + 1] + row[above + left];

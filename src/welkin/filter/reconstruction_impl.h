@@ -58,7 +58,9 @@ class ReconstructionOf {
         const Pack edge = high - xsimd::max(Pack(8.0f) * low, far_above);
         const Pack faint = Pack(0.125f) * far_above - high;
         const auto is_light = (edge > Pack(0.0f)) | ((alone > Pack(0.0f)) & (faint < Pack(0.0f)));
-        xsimd::select(is_light, Pack(1.0f), Pack(0.0f)).store_unaligned(light + i);
+        const Pack uneven =
+            xsimd::select(high - low > Pack(kUneven / 8) * far_above, Pack(float{kIsUneven}), Pack(0.0f));
+        xsimd::select(is_light, Pack(float{kIsLight}), uneven).store_unaligned(light + i);
         if (how.limited) {
           const Pack lowest = lowest_point(a), highest = highest_point(a), zero(0.0f);
           const Pack beyond = Pack(kBeyond) * (high - low);
@@ -81,11 +83,11 @@ class ReconstructionOf {
           }
         }
       }
-      std::uint8_t* beside = out.beside_light.data() + static_cast<std::ptrdiff_t>(y) * out.width;
+      std::uint8_t* beside = out.hard.data() + static_cast<std::ptrdiff_t>(y) * out.width;
       for (int x = 0; x < out.width; ++x) {
         float any = 0;
-        for (std::ptrdiff_t c = 0; c < channels; ++c) any += light[x * channels + c];
-        beside[x] = any > 0 ? 1 : 0;
+        for (std::ptrdiff_t c = 0; c < channels; ++c) any = std::max(any, light[x * channels + c]);
+        beside[x] = static_cast<std::uint8_t>(any);
       }
     }
   }

@@ -101,12 +101,15 @@ TEST(ReconstructionTest, UndershootIsLimited) {
   }
 }
 
-TEST(ReconstructionTest, ALightAndItsNeighboursAreMarked) {
+TEST(ReconstructionTest, LightsAndUnevenTexelsAreMarked) {
   Map map = make_map("cube", 24);
   for (int chart = 0; chart < 6; ++chart) {
     for (int y = 0; y < 24; ++y) std::fill_n(map.level.chart(chart).row(y), 24, 0.25f);
   }
   *map.level.chart(1).at(12, 10) = 1000;
+  // Of a mean of 1, as `bright` says: one that stands out and one that doesn't.
+  *map.level.chart(1).at(8, 15) = 0.25f + 1.01f * kUneven;
+  *map.level.chart(1).at(16, 16) = 0.25f + 0.99f * kUneven;
   fill_borders(map);
   ReconstructedTexels texels;
   texels.reset(1, 6, 6, 12, 12, 1);
@@ -114,16 +117,20 @@ TEST(ReconstructionTest, ALightAndItsNeighboursAreMarked) {
   const float bright = 8;
   how.bright = &bright;
   reconstruction_kernels(1).reconstruct(view_of(map.level), how, texels);
-  texels.count_lights();
+  texels.count_hard();
+  const auto near = [](int x, int y, int to_x, int to_y) {
+    return std::abs(x - to_x) <= 1 && std::abs(y - to_y) <= 1;
+  };
   for (int y = 6; y < 18; ++y) {
     for (int x = 6; x < 18; ++x) {
-      const bool near = std::abs(x - 12) <= 1 && std::abs(y - 10) <= 1;
-      EXPECT_EQ(texels.beside_light[texels.index(x, y)] != 0, near) << x << ' ' << y;
+      const int wanted = near(x, y, 12, 10) ? kIsLight : near(x, y, 8, 15) ? kIsUneven : 0;
+      EXPECT_EQ(texels.hard[texels.index(x, y)], wanted) << x << ' ' << y;
     }
   }
-  EXPECT_EQ(texels.lights_in(6, 6, 17, 17), 9);
-  EXPECT_EQ(texels.lights_in(12, 10, 12, 10), 1);
-  EXPECT_EQ(texels.lights_in(6, 6, 10, 17), 0);
+  EXPECT_EQ(texels.hard_in(6, 6, 17, 17), 9 * kLights + 9);
+  EXPECT_EQ(texels.hard_in(12, 10, 12, 10), kLights);
+  EXPECT_EQ(texels.hard_in(8, 14, 9, 17), 6);
+  EXPECT_EQ(texels.hard_in(6, 6, 10, 13), 0);
 }
 
 #ifdef WELKIN_HAS_AVX2

@@ -35,8 +35,9 @@ struct ResampleOptions {
 /// Each is read by its own orientation; channels go by position, and both have as many. The two are different
 /// maps. Reads the source only; besides it needs at most a pyramid of a third of the source, and only to
 /// minify more than sixteenfold. Positions are exact to 1e-6 of a chart's side. `automatic` keeps light: the
-/// integral over the sphere, and that of every texel, within the bounds that docs/filtering.md gives. Throws
-/// Error (bad_request) for maps of other numbers of channels; Cancelled.
+/// integral over the sphere, and that of every texel, within the bounds that docs/filtering.md gives; values
+/// beyond ±1e37 may become infinite. Throws Error (bad_request) for maps of other numbers of channels;
+/// Cancelled.
 ///
 /// A target of the source's own parameterization, size and orientation gets the texels as they are.
 WELKIN_API void resample(const Map& source, Map& target, const ResampleOptions& options = {});

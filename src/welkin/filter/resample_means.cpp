@@ -25,6 +25,8 @@ constexpr int kAround = 1;                        ///< of a block's texels, whos
 constexpr int kLines = kBlock + 1 + 2 * kAround;  ///< of corners
 /// Source texels along the narrowest footprint from which a level of the pyramid is read instead.
 constexpr double kNarrowest = 8;
+/// The rule of sides where what is seen is uneven, at least.
+constexpr int kUnevenRule = 3;
 /// Parts of a texel's edge that are straight.
 constexpr int kChords = 2;
 /// But for those that are one chord, by how much steps along them change, source texels.
@@ -67,7 +69,7 @@ class MeanMaker final : public TexelMaker {
     Corners corners;
     float bend[kLines][kLines], across[kBlock][kBlock], down[kBlock][kBlock];
     std::uint8_t even[kBlock][kBlock];  ///< quadrilaterals, as their neighbours are
-    bool any_light = false;             ///< in `texels`
+    bool any_hard = false;              ///< in `texels`
     OverlapMeans::Work overlaps;
     ReconstructedTexels texels;  ///< under the part of a block that is made
     std::vector<OutlineLoop> loops;
@@ -206,9 +208,13 @@ class MeanMaker final : public TexelMaker {
           float* const to = out.at(column - asked.x, row - asked.y);
           if (work.even[row][column] != 0) {
             const Quadrilateral area = quadrilateral(corners, column + kAround, row + kAround);
-            const int across = rule_for(work.across[row][column]), down = rule_for(work.down[row][column]);
-            if (by_points && across >= 0 && down >= 0 &&
-                !(work.any_light && beside_light(work.texels, area))) {
+            int across = rule_for(work.across[row][column]), down = rule_for(work.down[row][column]);
+            const std::int32_t hard = by_points && work.any_hard ? hard_in(work.texels, area) : 0;
+            if (by_points && across >= 0 && down >= 0 && hard < kLights) {
+              if (hard > 0) {
+                across = std::max(across, kUnevenRule);
+                down = std::max(down, kUnevenRule);
+              }
               Work::Alike& alike = work.alike[across][down];
               alike.areas.push_back(area);
               alike.targets.push_back(to);
@@ -292,9 +298,9 @@ class MeanMaker final : public TexelMaker {
         return false;
       work.texels.reset(static_cast<int>(chart_seen), left, top, columns, rows, maker.view_.channels);
       maker.means_.reconstruct(work.texels);
-      work.any_light = std::find(work.texels.beside_light.begin(), work.texels.beside_light.end(), 1) !=
-                       work.texels.beside_light.end();
-      if (work.any_light) work.texels.count_lights();
+      work.any_hard = std::any_of(work.texels.hard.begin(), work.texels.hard.end(),
+                                  [](std::uint8_t each) { return each != 0; });
+      if (work.any_hard) work.texels.count_hard();
       return true;
     }
 
@@ -308,7 +314,7 @@ class MeanMaker final : public TexelMaker {
       return q;
     }
 
-    static bool beside_light(const ReconstructedTexels& texels, const Quadrilateral& q) {
+    static std::int32_t hard_in(const ReconstructedTexels& texels, const Quadrilateral& q) {
       const auto cell = [](float position, int first, int size) {
         return std::clamp(static_cast<int>(std::floor(position)), first, first + size - 1);
       };
@@ -316,7 +322,7 @@ class MeanMaker final : public TexelMaker {
                 right = cell(std::max({q.x[0], q.x[1], q.x[2], q.x[3]}), texels.x, texels.width);
       const int top = cell(std::min({q.y[0], q.y[1], q.y[2], q.y[3]}), texels.y, texels.height),
                 bottom = cell(std::max({q.y[0], q.y[1], q.y[2], q.y[3]}), texels.y, texels.height);
-      return texels.lights_in(left, top, right, bottom) > 0;
+      return texels.hard_in(left, top, right, bottom);
     }
   };
 

@@ -93,52 +93,62 @@ double limit_overshoot(const ImageView<const float>& chart, const Weights& acros
 
 class Reference {
  public:
-  Reference(const Map& source, Map& target, const ResampleOptions& options, int samples)
+  Reference(const Map& source, const MapFrame& target, const ResampleOptions& options, int samples)
       : source_(source),
         target_(target),
         options_(options),
-        reconstructed_(options.filter == Filter::automatic &&
-                       is_reconstructed(
-                           source, target,
-                           source.orientation * transpose(options.rotation) * transpose(target.orientation))),
-        samples_(options.filter == Filter::automatic ? samples : 1),
         to_source_(source.orientation * transpose(options.rotation) * transpose(target.orientation)),
+        reconstructed_(options.filter == Filter::automatic && is_reconstructed(source, target, to_source_)),
+        by_row_(source.parameterization.density_by_row() && source.parameterization.full_charts()),
+        samples_(options.filter == Filter::automatic ? samples : 1),
         fill_(options.fill.begin(), options.fill.end()) {
-    require(source.channels() == target.channels(),
-            "the maps to resample between have other numbers of channels");
     require(samples >= 1, "resampling takes at least one sample for each texel");
     fill_.resize(static_cast<std::size_t>(source.channels()));
   }
 
-  void row(int chart, int y) {
-    Values value(fill_.size()), sum(fill_.size());
-    for (int x = 0; x < target_.width(); ++x) {
-      double total = 0;
-      std::fill(sum.begin(), sum.end(), 0.0);
-      for (int k = 0; k < samples_ * samples_; ++k) {
-        const double u = (x + (k % samples_ + 0.5) / samples_) / target_.width();
-        const double v = (y + (k / samples_ + 0.5) / samples_) / target_.height();
-        const auto& p = target_.parameterization;
-        if (!p.valid(chart, u, v)) continue;
-        const double weight = samples_ == 1 ? 1.0 : p.solid_angle_density(chart, u, v);
-        look_up(to_source_ * p.to_sphere(chart, u, v), value);
-        total += weight;
-        for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
-      }
-      if (!(total > 0) && target_.parameterization.filled_to_edges()) {
-        const double u = (x + 0.5) / target_.width(), v = (y + 0.5) / target_.height();
-        look_up(to_source_ * target_.parameterization.to_sphere(chart, u, v), sum);
-        total = 1;
-      }
-      float* out = target_.level.chart(chart).at(x, y);
-      for (std::size_t c = 0; c < sum.size(); ++c) {
-        out[c] = static_cast<float>(total > 0 ? sum[c] / total : fill_[c]);
-      }
+  /// The values of a texel, one for each channel.
+  Values texel(const TexelPlace& place) const {
+    const auto& p = target_.parameterization;
+    const auto [width, height] = target_.size;
+    Values value(fill_.size()), sum(fill_.size()), low(fill_.size());
+    Within last;
+    double total = 0;
+    for (int k = 0; k < samples_ * samples_; ++k) {
+      const double u = (place.x + (k % samples_ + 0.5) / samples_) / width;
+      const double v = (place.y + (k / samples_ + 0.5) / samples_) / height;
+      if (!p.valid(place.chart, u, v)) continue;
+      const double weight = samples_ == 1 ? 1.0 : p.solid_angle_density(place.chart, u, v);
+      look_up(to_source_ * p.to_sphere(place.chart, u, v), last, low, value);
+      total += weight;
+      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
     }
+    if (!(total > 0) && p.filled_to_edges()) {
+      look_up(to_source_ * p.to_sphere(place.chart, (place.x + 0.5) / width, (place.y + 0.5) / height), last,
+              low, sum);
+      total = 1;
+    }
+    if (!(total > 0)) return fill_;
+    for (std::size_t c = 0; c < sum.size(); ++c) {
+      sum[c] /= total;
+      // The limiter leaves a little of an undershoot.
+      if (reconstructed_ && !options_.allow_ringing && sum[c] < 0) sum[c] = std::max(sum[c], low[c]);
+    }
+    return sum;
   }
 
  private:
-  void look_up(const Vec3d& d, Values& value) const {
+  /// Radiance within a texel of the source. Samples side by side mostly share one.
+  struct Within {
+    int chart = -1, x = 0, y = 0;
+    /// Of each channel: the texel, and the coefficients of x, y, x² − 1/12, x·y and y² − 1/12.
+    std::vector<std::array<double, 6>> of = {};
+    std::vector<double> lowest = {};  ///< of each channel, of the 3×3 texels around and 0
+    double density = 0;               ///< solid angle per area of the chart, its mean over the texel
+    double bend = 0;                  ///< by what share of the mean it grows to the bottom
+  };
+
+  /// `low` goes down to the lowest of the texels that limit what is within one.
+  void look_up(const Vec3d& d, Within& last, Values& low, Values& value) const {
     const auto& p = source_.parameterization;
     if (!p.covers(d)) {
       value = fill_;
@@ -150,11 +160,22 @@ class Reference {
       const double x = position.u * source_.width(), y = position.v * source_.height();
       const int column = static_cast<int>(clamp(std::floor(x), 0.0, source_.width() - 1.0)),
                 row = static_cast<int>(clamp(std::floor(y), 0.0, source_.height() - 1.0));
-      const bool within = reconstructed_ && is_whole(static_cast<int>(position.chart), column, row);
+      const int number = static_cast<int>(position.chart);
+      if (last.chart != number || last.x != column || last.y != row) last = within(number, column, row);
+      // What differs from the texel's mean adds up to nothing over its area in the chart. So it is weighted
+      // by that area, or where solid angle depends on the row alone, measured in solid angle down the row.
+      const double px = x - column - 0.5;
+      double py = y - row - 0.5, share = 1;
+      if (by_row_) {
+        py += last.bend * (py * py - 0.25);
+      } else {
+        const double density = p.solid_angle_density(number, position.u, position.v);
+        if (density > 0 && last.density > 0) share = last.density / density;
+      }
       for (std::size_t c = 0; c < value.size(); ++c) {
-        const int channel = static_cast<int>(c);
-        value[c] = within ? radiance_within(chart, column, row, channel, x - column - 0.5, y - row - 0.5)
-                          : static_cast<double>(chart.at(column, row)[channel]);
+        const auto& a = last.of[c];
+        value[c] = a[0] + share * (at(a, px, py) - a[0]);
+        low[c] = std::min(low[c], last.lowest[c]);
       }
       return;
     }
@@ -185,9 +206,41 @@ class Reference {
     return true;
   }
 
-  /// The reconstruction of reconstruction.h at (x, y), −½…½ from the texel's centre.
-  double radiance_within(const ImageView<const float>& chart, int column, int row, int channel, double x,
-                         double y) const {
+  Within within(int chart, int x, int y) const {
+    Within texel{chart, x, y};
+    const ImageView<const float> view = source_.level.chart(chart);
+    const bool reconstructed = reconstructed_ && is_whole(chart, x, y);
+    for (int c = 0; c < source_.channels(); ++c) {
+      texel.of.push_back(reconstructed ? reconstruction(view, x, y, c)
+                                       : std::array<double, 6>{static_cast<double>(view.at(x, y)[c])});
+      double lowest = 0;
+      for (int k = 0; k < 9; ++k)
+        lowest = std::min(lowest, static_cast<double>(view.at(x + k % 3 - 1, y + k / 3 - 1)[c]));
+      texel.lowest.push_back(lowest);
+    }
+    if (reconstructed) {
+      constexpr int kPoints = 4;
+      const auto density = [&](double right, double down) {
+        return std::max(0.0, source_.parameterization.solid_angle_density(
+                                 chart, (x + right) / source_.width(), (y + down) / source_.height()));
+      };
+      for (int k = 0; k < kPoints * kPoints; ++k) {
+        texel.density +=
+            density((k % kPoints + 0.5) / kPoints, (k / kPoints + 0.5) / kPoints) / (kPoints * kPoints);
+      }
+      const double top = density(0.5, 0), bottom = density(0.5, 1);
+      if (by_row_) texel.bend = (bottom - top) / (bottom + top);
+    }
+    return texel;
+  }
+
+  static double at(const std::array<double, 6>& a, double x, double y) {
+    return a[0] + a[1] * x + a[2] * y + a[3] * (x * x - 1.0 / 12) + a[4] * x * y + a[5] * (y * y - 1.0 / 12);
+  }
+
+  /// As reconstruction.h has it.
+  std::array<double, 6> reconstruction(const ImageView<const float>& chart, int column, int row,
+                                       int channel) const {
     const auto texel = [&](int right, int down) {
       return static_cast<double>(chart.at(column + right, row + down)[channel]);
     };
@@ -204,53 +257,82 @@ class Reference {
       return sum;
     };
     const double m = texel(0, 0);
-    double a[5] = {odd([&](int j) { return texel(j, 0); }), odd([&](int j) { return texel(0, j); }),
-                   even([&](int j) { return texel(j, 0); }),
-                   odd([&](int k) { return odd([&](int j) { return texel(j, k); }); }),
-                   even([&](int j) { return texel(0, j); })};
-    const auto at = [&](double px, double py) {
-      return m + a[0] * px + a[1] * py + a[2] * (px * px - 1.0 / 12) + a[3] * px * py +
-             a[4] * (py * py - 1.0 / 12);
-    };
-    if (!options_.allow_ringing) {
-      double lowest = m, highest = m, low = m, high = m;
-      for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i) {
-          lowest = std::min(lowest, at(0.5 * i, 0.5 * j));
-          highest = std::max(highest, at(0.5 * i, 0.5 * j));
-          low = std::min(low, texel(i, j));
-          high = std::max(high, texel(i, j));
-        }
+    std::array<double, 6> a{m,
+                            odd([&](int j) { return texel(j, 0); }),
+                            odd([&](int j) { return texel(0, j); }),
+                            even([&](int j) { return texel(j, 0); }),
+                            odd([&](int k) { return odd([&](int j) { return texel(j, k); }); }),
+                            even([&](int j) { return texel(0, j); })};
+    if (options_.allow_ringing) return a;
+    double lowest = m, highest = m, low = m, high = m;
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        lowest = std::min(lowest, at(a, 0.5 * i, 0.5 * j));
+        highest = std::max(highest, at(a, 0.5 * i, 0.5 * j));
+        low = std::min(low, texel(i, j));
+        high = std::max(high, texel(i, j));
       }
-      const double beyond = static_cast<double>(kBeyond) * (high - low);
-      const bool deep = lowest < -static_cast<double>(kDeep) * std::fabs(m);
-      const double positive = deep ? std::min(low, std::max(0.5 * low, 0.0))
-                                   : std::min(low, 0.0) - static_cast<double>(kUndershoot) * std::fabs(m);
-      const double floor = std::max(positive, low - beyond), ceiling = high + beyond;
-      double share = 1;
-      if (lowest < floor) share = (m - floor) / (m - lowest);
-      if (highest > ceiling) share = std::min(share, (ceiling - m) / (highest - m));
-      for (double& each : a) each *= share;
     }
-    return at(x, y);
+    const double beyond = static_cast<double>(kBeyond) * (high - low);
+    const bool deep = lowest < -static_cast<double>(kDeep) * std::fabs(m);
+    const double positive = deep ? std::min(low, std::max(0.5 * low, 0.0))
+                                 : std::min(low, 0.0) - static_cast<double>(kUndershoot) * std::fabs(m);
+    const double floor = std::max(positive, low - beyond), ceiling = high + beyond;
+    double share = 1;
+    if (lowest < floor) share = (m - floor) / (m - lowest);
+    if (highest > ceiling) share = std::min(share, (ceiling - m) / (highest - m));
+    for (std::size_t k = 1; k < a.size(); ++k) a[k] *= share;
+    return a;
   }
 
   const Map& source_;
-  Map& target_;
+  const MapFrame target_;
   const ResampleOptions& options_;
-  const bool reconstructed_;
-  const int samples_;
   const Matrix3 to_source_;
+  const bool reconstructed_;
+  const bool by_row_;  ///< texels of a row of the source have one solid angle
+  const int samples_;
   Values fill_;
 };
 
 }  // namespace
 
 void resample_reference(const Map& source, Map& target, const ResampleOptions& options, int samples) {
-  Reference reference(source, target, options, samples);
+  require(source.channels() == target.channels(),
+          "the maps to resample between have other numbers of channels");
+  const Reference reference(source, target, options, samples);
   parallel_for(
       target.charts() * target.height(),
-      [&](int i) { reference.row(i / target.height(), i % target.height()); }, options.monitor);
+      [&](int i) {
+        TexelPlace place{i / target.height(), 0, i % target.height()};
+        for (; place.x < target.width(); ++place.x) {
+          const Values values = reference.texel(place);
+          float* out = target.level.chart(place.chart).at(place.x, place.y);
+          for (const double value : values) *out++ = static_cast<float>(value);
+        }
+      },
+      options.monitor);
+}
+
+std::vector<double> resample_reference(const Map& source, const MapFrame& target,
+                                       const ResampleOptions& options, int samples,
+                                       std::span<const TexelPlace> texels) {
+  const Reference reference(source, target, options, samples);
+  const std::size_t channels = static_cast<std::size_t>(source.channels());
+  std::vector<double> all(texels.size() * channels);
+  parallel_for(
+      static_cast<int>(texels.size()),
+      [&](int i) {
+        const std::size_t k = static_cast<std::size_t>(i);
+        const TexelPlace& place = texels[k];
+        require(place.chart >= 0 && place.chart < target.parameterization.charts() && place.x >= 0 &&
+                    place.x < target.size.width && place.y >= 0 && place.y < target.size.height,
+                "there is no such texel");
+        const Values values = reference.texel(place);
+        std::copy(values.begin(), values.end(), all.begin() + static_cast<std::ptrdiff_t>(k * channels));
+      },
+      options.monitor);
+  return all;
 }
 
 }  // namespace welkin

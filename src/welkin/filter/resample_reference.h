@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "welkin/base/export.h"
 #include "welkin/filter/resample.h"
 
@@ -14,7 +17,8 @@ namespace welkin {
 ///
 /// `automatic` is the mean over the texel's solid angle of what is reconstructed within the source's texels
 /// (docs/filtering.md), or of the texels as they are where resample() takes them so: samples × samples points
-/// on a regular grid, each weighted by the target's density there. No pyramid is read, so it tends to the
+/// on a regular grid, each weighted by the target's density there; what differs from a source texel's mean
+/// within it is weighted so that it adds up to nothing over the texel. No pyramid is read, so it tends to the
 /// exact mean as `samples` grows; there should be several points per source texel.
 ///
 /// Directions that the source does not show count as `fill`, and so does a texel none of whose points is a
@@ -22,5 +26,18 @@ namespace welkin {
 /// number of channels. Error: float rounding of the result. Throws Cancelled.
 WELKIN_API void resample_reference(const Map& source, Map& target, const ResampleOptions& options,
                                    int samples);
+
+/// A texel of a map.
+struct TexelPlace {
+  int chart = 0;  ///< which chart
+  int x = 0;      ///< its column
+  int y = 0;      ///< its row
+};
+
+/// The same of some texels of a map that need not exist: a value for each of the source's channels, texel by
+/// texel. Throws Error (bad_request) for a texel that the map doesn't have.
+WELKIN_API std::vector<double> resample_reference(const Map& source, const MapFrame& target,
+                                                  const ResampleOptions& options, int samples,
+                                                  std::span<const TexelPlace> texels);
 
 }  // namespace welkin
