@@ -189,8 +189,8 @@ void add_bake(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--filter", bake->filter,
-                   "How a level of roughness 0 reads the source: auto (antialiased), nearest, bilinear, "
-                   "bicubic, lanczos")
+                   "How a level of roughness 0 is resampled: auto (antialiased, keeps the light), nearest, "
+                   "bilinear, bicubic, lanczos")
       ->capture_default_str();
   command->add_option(
       "--rotate", bake->rotation,

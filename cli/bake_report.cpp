@@ -44,15 +44,12 @@ ordered_json or_null(const std::optional<T>& value) {
 }
 
 ordered_json json_of(const LevelVerification& v) {
-  ordered_json report;
-  if (v.reference) {
-    const Vec3d& d = v.reference->maximum_direction;
-    report = {{"random_texels", v.reference->random_texels},
-              {"hot_texels", v.reference->hot_texels},
-              {"relative_rmse", v.reference->relative_rmse},
-              {"max_relative", v.reference->maximum},
-              {"max_relative_direction", {d.x, d.y, d.z}}};
-  }
+  const Vec3d& d = v.reference.maximum_direction;
+  ordered_json report{{"random_texels", v.reference.random_texels},
+                      {"hot_texels", v.reference.hot_texels},
+                      {"relative_rmse", v.reference.relative_rmse},
+                      {"max_relative", v.reference.maximum},
+                      {"max_relative_direction", {d.x, d.y, d.z}}};
   report["energy"] = or_null(v.energy);
   report["furnace"] = or_null(v.furnace);
   return report;
@@ -77,10 +74,8 @@ void BakeReport::print() const {
                verification.empty() ? method : left(method, 33));
     if (!verification.empty()) {
       const LevelVerification& v = verification[i];
-      std::optional<double> rmse, maximum;
-      if (v.reference) rmse = 100 * v.reference->relative_rmse;
-      if (v.reference) maximum = 100 * v.reference->maximum;
-      fmt::print("  {}  {}  {}  {}", right(or_dash("{:.3g}", rmse), 11), right(or_dash("{:.3g}", maximum), 7),
+      fmt::print("  {}  {}  {}  {}", right(fmt::format("{:.3g}", 100 * v.reference.relative_rmse), 11),
+                 right(fmt::format("{:.3g}", 100 * v.reference.maximum), 7),
                  right(or_dash("{:.6f}", v.energy), 8), right(or_dash("{:.1e}", v.furnace), 8));
     }
     fmt::print("\n");
@@ -120,11 +115,11 @@ void BakeReport::print_json() const {
 
 void BakeReport::report_misses() const {
   for (std::size_t i = 0; i < verification.size(); ++i) {
-    const auto& reference = verification[i].reference;
-    if (!reference || reference->relative_rmse <= made->options.prefilter.tolerance) continue;
+    const ReferenceErrors& reference = verification[i].reference;
+    if (reference.relative_rmse <= made->options.prefilter.tolerance) continue;
     print_message(
         fmt::format("welkin: {}: level {}: the relative RMSE, {:.3g} %, is above the tolerance, {:g} %\n",
-                    out, i, 100 * reference->relative_rmse, 100 * made->options.prefilter.tolerance));
+                    out, i, 100 * reference.relative_rmse, 100 * made->options.prefilter.tolerance));
   }
 }
 

@@ -20,6 +20,15 @@ each() {
     exit !found }' || fail "$1 is not in $2…$3: $(all "$1")"
 }
 
+# chain KEY MIRROR MOST: the first value, a mirror's level, is in 0…MIRROR, and the others are in 0…MOST.
+chain() {
+  checks=$((checks + 1))
+  awk -v values="$(all "$1")" -v mirror="$2" -v most="$3" 'BEGIN {
+    n = split(values, v, " ")
+    for (i = 1; i <= n; ++i) if (!(v[i] >= 0 && v[i] <= (i == 1 ? mirror : most))) exit 1
+    exit n < 2 }' || fail "$1 is not in 0…$2 and 0…$3: $(all "$1")"
+}
+
 # says PATTERN ARGUMENT…: welkin does this and says one thing that matches.
 says() {
   local pattern=$1
@@ -53,10 +62,11 @@ done
 for source in studio lamps; do
   bake $source.exr verified.ktx2 --size 64 --json --verify=32
   each relative_rmse 0 0.001
-  each max_relative 0 0.02
+  # Of dark texels beside lamps.
+  chain max_relative 0.2 0.02
   each furnace 0 2e-5
   near "energy of the filtered levels" "$(all energy | cut -d ' ' -f 2-)" "1 1 1 1 1 1 " 1e-4
-  near "random texels" "$(all random_texels)" "32 32 32 32 24 6 " 0
+  near "random texels" "$(all random_texels)" "32 32 32 32 32 24 6 " 0
   each hot_texels 1 100
   checks=$((checks + 1))
   for key in read plan compute verify write; do [[ -n $(all $key) ]] || fail "no $key among the seconds"; done
@@ -64,7 +74,7 @@ done
 bake studio.exr verified.ktx2 --size 16 --verify
 checks=$((checks + 1))
 grep -qE '^level +size  roughness  method +rel. RMSE % +max % +energy +furnace$' "$work/out" || fail "no columns: $(cat "$work/out")"
-grep -qE '^    0 +16×16 +0 +resample +– +– +[0-9.]+ +[-+0-9.e]+$' "$work/out" || fail "a mirror is not told apart: $(cat "$work/out")"
+grep -qE '^    0 +16×16 +0 +resample +[-+0-9.e]+ +[-+0-9.e]+ +[0-9.]+ +[-+0-9.e]+$' "$work/out" || fail "a mirror is not verified: $(cat "$work/out")"
 # Tolerances in both ways of writing.
 bake studio.exr loose.ktx2 --size 16 --tolerance "10 %"
 bake studio.exr loose.ktx2 --size 16 --tolerance 0.05
@@ -174,17 +184,19 @@ for level in 0 1 2 3 4 5; do
 done
 
 # ---- odd sizes and shapes
+# Of so few texels a mirror misses the tolerance, beside lights and at rims, and that is told.
 must synth studio odd.exr --size 37x19
-bake odd.exr odd.ktx2 --size 33 --verify --json
-each relative_rmse 0 0.001
-bake odd.exr odd.ktx2 --to latlong --size 41x23 --verify --json
-each relative_rmse 0 0.001
+says 'odd.ktx2: level 0: the relative RMSE, [0-9.]+ %, is above the tolerance, 0.1 %$' bake odd.exr odd.ktx2 --size 33 --verify --json
+chain relative_rmse 0.01 0.001
+says 'odd.ktx2: level 0: the relative RMSE, [0-9.]+ %, is above the tolerance, 0.1 %$' bake odd.exr odd.ktx2 --to latlong --size 41x23 --verify --json
+chain relative_rmse 0.01 0.001
+# Where a map ends in a texel, a mirror's is found by points.
 for to in octahedral cube equal-area mirror-ball cylinder,fov=170; do
   must synth studio source.exr --to $to --size 49
   run bake source.exr target.ktx2 --size 20 --levels 3 --verify=16 --json
   checks=$((checks + 1))
   ((status == 0)) || fail "bake from $to: $(cat "$work/messages")"
-  each relative_rmse 0 0.001
+  chain relative_rmse 0.03 0.001
 done
 must synth studio part.exr --to fisheye-equidistant --size 64
 says 'part.exr: shows 50.0 % of the sphere; the rest is black$' bake part.exr part.ktx2 --size 16

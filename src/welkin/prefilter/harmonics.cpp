@@ -347,7 +347,6 @@ HarmonicResults run_harmonics(const Tables& t, const Map& source, const Monitor&
         texels[band.level].rows(band.chart, band.row, band.rows);
       },
       part_of(monitor, 0.72, 1));
-  results.reduced = std::move(points.reduced);
   return results;
 }
 

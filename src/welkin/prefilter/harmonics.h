@@ -52,8 +52,7 @@ struct HarmonicLevel {
 };
 
 struct HarmonicResults {
-  std::vector<Map> levels;     ///< in the order of Tables::harmonic, borders not filled
-  std::optional<Map> reduced;  ///< PointGrid::reduced
+  std::vector<Map> levels;  ///< in the order of Tables::harmonic, borders not filled
 };
 
 /// The levels of `tables.harmonic`, near parts included. Throws Cancelled, and Error for values that can't be

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "welkin/lobe/lobe.h"
 #include "welkin/prefilter/fft.h"
 #include "welkin/prefilter/legendre.h"
@@ -20,9 +18,6 @@ struct SpreadRows {
   ImageView<const float> picture;
   const RowSpread& down;
   const ColumnSpread& along;
-  /// Where not null: a picture of one texel for each point to fill, see PointGridPlan::reduces.
-  ImageView<float> reduced;
-  std::span<const float> shares;  ///< of each row of the picture in a texel of `reduced`, over its columns
 
   /// Values of work space that the kernel needs.
   std::size_t work() const {

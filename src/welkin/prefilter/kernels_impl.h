@@ -79,9 +79,7 @@ struct KernelsOf {
         if (north >= half) {
           std::memset(row, 0, static_cast<std::size_t>(row_length) * sizeof(float));
         } else {
-          const int at = lane < 8 ? north : height - 1 - north;
-          mix_rows(r, at, begin, end, row);
-          if (r.reduced.data != nullptr) reduce(r, at, begin, end, mixed + 16 * row_length);
+          mix_rows(r, lane < 8 ? north : height - 1 - north, begin, end, row);
         }
       }
       for (int x = begin; x < end; ++x) {
@@ -99,29 +97,6 @@ struct KernelsOf {
       std::memcpy(at + static_cast<std::ptrdiff_t>(width + reach) * 16,
                   at + static_cast<std::ptrdiff_t>(reach) * 16, bytes);
       spread_columns(r, at, lanes + static_cast<std::ptrdiff_t>(c) * (width / columns) * 16);
-    }
-  }
-
-  /// The mean over the solid angle of the boxes of texels that a row of points stands for.
-  static void reduce(const SpreadRows& r, int row, int begin, int end, float* mixed) {
-    const int n = r.picture.channels, across = r.along.columns;
-    const int down = r.picture.height / (static_cast<int>(r.down.first.size()) - 1);
-    for (int i = begin * n; i < end * n; i += 32) {
-      V sum[4] = {V(0.0f), V(0.0f), V(0.0f), V(0.0f)};
-      for (int k = 0; k < down; ++k) {
-        const float* from = r.picture.data + (row * down + k) * r.picture.row_stride + i;
-        const V weight(r.shares.data()[row * down + k]);
-        for (int part = 0; part < 4; ++part) sum[part] = V::fma(weight, V::load(from + 8 * part), sum[part]);
-      }
-      for (int part = 0; part < 4; ++part) sum[part].store(mixed + (i - begin * n) + 8 * part);
-    }
-    float* to = r.reduced.data + row * r.reduced.row_stride + static_cast<std::ptrdiff_t>(begin / across) * n;
-    for (int x = 0; x < (end - begin) / across; ++x, to += n, mixed += across * n) {
-      for (int c = 0; c < n; ++c) {
-        float sum = 0;
-        for (int k = 0; k < across; ++k) sum += mixed[k * n + c];
-        to[c] = sum;
-      }
     }
   }
 

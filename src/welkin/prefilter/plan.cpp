@@ -89,23 +89,16 @@ std::vector<std::optional<Choice>> choose(const PrefilterPlan::Tables& t) {
   return choices;
 }
 
-/// Read from the source; or from its averages over boxes, which come with the points, where these are fine
-/// enough.
+/// Read from the source.
 void add_mirror(PrefilterPlan::Tables& t, std::size_t level) {
-  PrefilterMethod& method = t.methods.emplace_back(PrefilterMethod{"resample", 0, {}, t.levels[level].lobe});
-  if (!t.analysis || t.options.mirror_filter != Filter::automatic) return;
-  PointGridPlan& points = t.analysis->points;
-  const double texel = mean_texel(t.target, t.levels[level].size);
-  const double reduced = mean_texel(t.source.parameterization, {points.width, points.height});
-  method.reduced = points.reduces() && points.rows_per_point > 0 && reduced < 1.2 * texel;
-  points.reduced = points.reduced || method.reduced;
+  t.methods.push_back({"resample", 0, {}, t.levels[level].lobe});
 }
 
 void add_harmonic(PrefilterPlan::Tables& t, std::size_t level, const WidenedLobe& lobe) {
   HarmonicLevel& harmonic =
       t.harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(level), t.analysis->points.width);
   if (lobe.sigma > 0) harmonic.sampled.emplace(lobe.lobe);
-  t.methods.push_back({"harmonics", lobe.degree(), harmonic.grid, lobe.lobe, lobe.sigma, false});
+  t.methods.push_back({"harmonics", lobe.degree(), harmonic.grid, lobe.lobe, lobe.sigma});
 }
 
 void add_near_and_far(PrefilterPlan::Tables& t, std::size_t level, const Choice& choice) {
@@ -117,8 +110,7 @@ void add_near_and_far(PrefilterPlan::Tables& t, std::size_t level, const Choice&
                                                      t.options.tolerance / 5, group->points.width);
   t.harmonic.emplace_back(choice.lobe, near.field.far, static_cast<int>(level), t.analysis->points.width)
       .all = true;
-  t.methods.push_back(
-      {"near and far", choice.degree(), near.grid, choice.lobe.lobe, choice.lobe.sigma, false});
+  t.methods.push_back({"near and far", choice.degree(), near.grid, choice.lobe.lobe, choice.lobe.sigma});
 }
 
 }  // namespace

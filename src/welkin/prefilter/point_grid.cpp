@@ -19,18 +19,7 @@ namespace {
 using sphere::AnyParameterization;
 
 void spread_rows(const Map& map, const PointGridPlan& plan, PointGrid& grid, const Monitor& monitor) {
-  std::vector<float> shares;
-  if (grid.reduced) {
-    const int group = plan.rows_per_point;
-    for (int row = 0; row < map.height(); ++row) {
-      const auto sine = [&](int y) { return std::sin((y + 0.5) * kPi / map.height()); };
-      double sum = 0;
-      for (int k = 0; k < group; ++k) sum += sine(row / group * group + k);
-      shares.push_back(static_cast<float>(sine(row) / (sum * plan.columns->columns)));
-    }
-  }
-  const SpreadRows rows{map.level.chart(0), *plan.rows, *plan.columns,
-                        grid.reduced ? grid.reduced->level.chart(0) : ImageView<float>{}, shares};
+  const SpreadRows rows{map.level.chart(0), *plan.rows, *plan.columns};
   parallel_for(
       grid.packs,
       [&](int pack) {
@@ -177,7 +166,6 @@ PointGridPlan::PointGridPlan(const AnyParameterization& source, ChartSize size, 
   // Three points differ from a box by φ⁴/339 at a phase of φ to a column: up to 2.3 at the last order, where
   // the lobe has least.
   way = degree <= 2.3 * width / (2 * kPi) ? Way::spread_points : Way::spread_boxes;
-  rows_per_point = size.height % height == 0 ? size.height / height : 0;
   rows.emplace(size.width, size.height, height);
   // Boxes are columns of the picture: points of several resolve more orders than the degree.
   assert(way == Way::spread_points || per_point == 1);
@@ -202,10 +190,6 @@ PointGridPlan PointGridPlan::with_rows(const AnyParameterization& source, ChartS
 PointGrid make_point_grid(const Map& map, const PointGridPlan& plan, const Monitor& monitor) {
   PointGrid grid(plan.width, plan.height, map.channels());
   grid.boxes = plan.way == PointGridPlan::Way::spread_boxes;
-  if (plan.reduced) {
-    grid.reduced.emplace(map.parameterization, plan.width, plan.height, map.channels());
-    grid.reduced->orientation = map.orientation;
-  }
   if (plan.way == PointGridPlan::Way::spread_texels) {
     spread_texels(map, grid, monitor);
   } else {

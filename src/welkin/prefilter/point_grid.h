@@ -29,8 +29,6 @@ struct PointGrid {
   Buffer lanes;
   /// Points are boxes as wide as a column: their orders need the factor sin x / x, x = πm/width.
   bool boxes = false;
-  /// The map averaged over boxes of its texels, one to a point; borders not filled. Where asked for.
-  std::optional<Map> reduced;
 
   float* at(int pack, int channel) {
     return lanes.data() + (static_cast<std::ptrdiff_t>(pack) * channels + channel) * width * 16;
@@ -82,11 +80,6 @@ struct PointGridPlan {
 
   Way way = Way::spread_texels;
   int width = 0, height = 0;
-  /// Whether points stand for whole numbers of rows and columns, several, so that `reduced` can be had.
-  bool reduces() const { return columns && (rows_per_point > 1 || columns->columns > 1); }
-
-  bool reduced = false;                 ///< make PointGrid::reduced; only where it reduces()
-  int rows_per_point = 0;               ///< 0 when it isn't a whole number
   std::optional<RowSpread> rows;        ///< of lat-longs, as is `columns`
   std::optional<ColumnSpread> columns;  ///< likewise
 

@@ -7,10 +7,8 @@
 #include "welkin/filter/resample.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
-#include "welkin/map/texel_points.h"
 #include "welkin/prefilter/plan.h"
 #include "welkin/prefilter/source_faults.h"
-#include "welkin/prefilter/spline_grid.h"
 
 namespace welkin {
 namespace {
@@ -23,14 +21,6 @@ void check_values(const Map& source, const Monitor& monitor) {
   if (faults.not_finite + faults.excessive > 0)
     throw Error(ErrorKind::bad_value,
                 "prefilter: the map has values that are NaN, infinite, or beyond ±1e30");
-}
-
-/// See PrefilterOptions::mirror_filter.
-Filter mirror_filter(const PrefilterOptions& options, const Map& from,
-                     const sphere::AnyParameterization& target, ChartSize size) {
-  if (options.mirror_filter != Filter::automatic) return options.mirror_filter;
-  const double source = mean_texel(from.parameterization, {from.width(), from.height()});
-  return mean_texel(target, size) < 1.5 * source ? Filter::bilinear : Filter::automatic;
 }
 
 }  // namespace
@@ -57,7 +47,6 @@ std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) c
   } else {
     harmonic = run_harmonics(t, source, monitor);
   }
-  if (harmonic.reduced) fill_latlong_border(harmonic.reduced->level);
   std::vector<Map> results;
   auto next = harmonic.levels.begin();
   for (std::size_t i = 0; i < t.levels.size(); ++i) {
@@ -66,12 +55,11 @@ std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) c
       if (t.options.scale == LobeScale::integral) scale(map, static_cast<float>(t.levels[i].lobe.integral()));
     } else {
       Map& map = results.emplace_back(t.result(i, source));
-      const Map& from = harmonic.reduced && t.methods[i].reduced ? *harmonic.reduced : source;
       ResampleOptions how;
-      how.filter = mirror_filter(t.options, from, map.parameterization, t.levels[i].size);
+      how.filter = t.options.mirror_filter;
       how.monitor = without_progress(monitor);
       how.borders = false;
-      resample(from, map, how);
+      resample(source, map, how);
     }
     if (t.options.borders) fill_borders(results.back());
   }

@@ -47,9 +47,8 @@ struct PrefilterOptions {
   /// Of the results: Map::orientation.
   Matrix3 orientation = {};
   LobeScale scale = LobeScale::average;  ///< what values are
-  /// How a mirror's level is read. `automatic`: bilinearly where the source is about as fine as the level;
-  /// where it is finer, averaged over the level's texels, or box-filtered to about the level's resolution and
-  /// then read bilinearly.
+  /// How a mirror's level is resampled from the source (ResampleOptions::filter). `automatic` keeps the
+  /// light.
   Filter mirror_filter = Filter::automatic;
   bool borders = true;  ///< false: leave the results' borders (fill_borders) to the caller
 };
@@ -63,8 +62,7 @@ struct PrefilterMethod {
   /// convolved with a Gaussian (docs/prefiltering.md). The reference for the level is brute force with this
   /// one.
   lobe::AnyLobe lobe;
-  double widened = 0;    ///< standard deviation of that Gaussian, radians; 0 where there is none
-  bool reduced = false;  ///< a mirror's level, read from the box-filtered source
+  double widened = 0;  ///< standard deviation of that Gaussian, radians; 0 where there is none
 };
 
 /// Everything that depends on sizes and lobes alone, kept for any number of maps: sequences and probe grids

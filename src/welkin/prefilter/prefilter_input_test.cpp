@@ -61,8 +61,11 @@ TEST(PrefilterInput, RefusesValuesThatCannotBeSummed) {
     source.level.chart(0).at(3, 3)[1] = 1e30f;
     source.level.chart(0).at(5, 3)[1] = std::numeric_limits<float>::denorm_min();
     fill_borders(source);
-    for (const float value : values_of(plan_for(source).run(source)))
-      EXPECT_TRUE(value >= 0 && value <= 1e30f);
+    // Within a mirror's texel, as far as its limiter lets it (filter/reconstruction.h).
+    for (const float value : values_of(plan_for(source).run(source))) {
+      EXPECT_GE(value, 0);
+      EXPECT_LE(value, 1.5e30f);
+    }
   }
 }
 
@@ -71,6 +74,7 @@ TEST(PrefilterInput, TheUnusedCornersOfADiscMayHoldAnything) {
   const Map clean = landscape("fisheye-equidistant", 24, 24);
   Map dirty = landscape("fisheye-equidistant", 24, 24);
   for (const int x : {0, 1, 22, 23}) *dirty.level.chart(0).at(x, x) = std::numeric_limits<float>::quiet_NaN();
+  fill_borders(dirty);
   EXPECT_EQ(values_of(plan_for(clean).run(clean)), values_of(plan_for(clean).run(dirty)));
 }
 

@@ -8,7 +8,9 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
+#include "welkin/filter/resample_reference.h"
 #include "welkin/map/borders.h"
+#include "welkin/map/texel_points.h"
 #include "welkin/prefilter/reference.h"
 #include "welkin/prefilter/verify_energy.h"
 #include "welkin/prefilter/verify_texels.h"
@@ -19,6 +21,10 @@ namespace {
 using namespace prefilter;
 
 constexpr int kLights = 16;
+/// Points along a side of a texel that a mirror's reference takes: from so many on, twice as many until a
+/// texel's change is as small as this, relatively, or there are so many.
+constexpr int kFewestSamples = 32, kMostSamples = 1024;
+constexpr double kSettled = 1e-4;
 /// Of the source's mean |radiance|: see ReferenceErrors::maximum.
 constexpr double kSmall = 1e-6;
 
@@ -185,8 +191,8 @@ class Verifier {
                  integral = options.prefilter.scale == LobeScale::integral;
       lobes_.push_back(furnace_plan_.methods()[i].lobe);
       one_.push_back(integral && !mirror ? levels[i].lobe.integral() : 1);
-      compared_.push_back(mirror ? Compared{} : compared_texels(maps[i], lights, options));
-      total_ += compared_.back().texels.size();
+      compared_.push_back(compared_texels(maps[i], lights, options));
+      if (!mirror) total_ += compared_.back().texels.size();
     }
   }
 
@@ -196,8 +202,8 @@ class Verifier {
     for (const std::size_t c : measured_channels(source_)) squares += magnitudes[c] * magnitudes[c];
     const double mean = std::sqrt(squares) / source_.parameterization.coverage();
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-      if (lobes_[i].is_mirror()) continue;
-      const std::vector<double> wanted = evaluate(reference_, i, source_.channels());
+      const std::vector<double> wanted =
+          lobes_[i].is_mirror() ? resampled(i) : evaluate(reference_, i, source_.channels());
       results[i].reference = errors_of(levels_[i], compared_[i], wanted, kSmall * mean * one_[i]);
     }
   }
@@ -232,6 +238,43 @@ class Verifier {
   }
 
  private:
+  /// The source resampled at the texels of a mirror's level.
+  std::vector<double> resampled(std::size_t level) const {
+    const Map& map = levels_[level];
+    const std::size_t channels = static_cast<std::size_t>(map.channels());
+    ResampleOptions how;
+    how.filter = options_.prefilter.mirror_filter;
+    how.monitor = without_progress(options_.monitor);
+    std::vector<TexelPlace> places;
+    std::vector<std::size_t> open;
+    for (const Texel& t : compared_[level].texels) {
+      open.push_back(places.size());
+      places.push_back({t.chart, t.x, t.y});
+    }
+    std::vector<double> wanted(places.size() * channels);
+    for (int samples = kFewestSamples; !open.empty() && samples <= kMostSamples; samples *= 2) {
+      const std::vector<double> values = resample_reference(source_, map, how, samples, places);
+      std::vector<std::size_t> still_open;
+      std::vector<TexelPlace> still;
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        double change = 0, size = 0;
+        for (std::size_t c = 0; c < channels; ++c) {
+          double& before = wanted[open[k] * channels + c];
+          const double value = values[k * channels + c];
+          change = std::max(change, std::fabs(value - before));
+          size = std::max(size, std::fabs(value));
+          before = value;
+        }
+        if (samples > kFewestSamples && change <= kSettled * size) continue;
+        still_open.push_back(open[k]);
+        still.push_back(places[k]);
+      }
+      open = std::move(still_open);
+      places = std::move(still);
+    }
+    return wanted;
+  }
+
   /// The reference at the texels of a level, in the level's scale.
   std::vector<double> evaluate(const PrefilterReference& reference, std::size_t level, int channels) {
     const Compared& compared = compared_[level];

@@ -27,8 +27,9 @@ struct VerifyOptions {
   Monitor monitor = {};    ///< progress and cancelling
 };
 
-/// Texels of a level against brute force in float64. All numbers are over the channels together, but for A
-/// where there are others.
+/// Texels of a level against brute force in float64; those of a mirror's level, which is the source
+/// resampled, against resample_reference with as many samples as it takes. All numbers are over the channels
+/// together, but for A where there are others.
 struct ReferenceErrors {
   int random_texels = 0;  ///< compared
   int hot_texels = 0;     ///< compared
@@ -42,8 +43,8 @@ struct ReferenceErrors {
 
 /// What is found of a level.
 struct LevelVerification {
-  /// None of a mirror's level, which is the source at other positions, not a sum with a lobe.
-  std::optional<ReferenceErrors> reference;
+  /// How far the level is from its definition.
+  ReferenceErrors reference;
   /// ∫ level dω / ∫ source dω, of the channel where it is farthest from 1; as 1 + difference / ∫ |source| dω,
   /// which is the same where nothing is negative, and 1 where there is no light. A level has too few texels
   /// for a quadrature, so it is computed again, by the same methods, at the nodes of an exact quadrature; a
@@ -58,9 +59,10 @@ struct LevelVerification {
 inline constexpr std::int64_t kMaxVerifiedTexels = std::int64_t{1} << 26;
 
 /// Holds maps, as PrefilterPlan::run made them of `source`, one for each of `levels`, to the definition:
-/// brute force with PrefilterMethod::lobe. The same numbers whatever the number of threads, and for the same
-/// seed. Takes some 3 ms for every texel compared and half a million texels of source, and core. Throws
-/// Error: a source of over kMaxVerifiedTexels, and as PrefilterPlan does; Cancelled.
+/// brute force with PrefilterMethod::lobe, and of mirrors PrefilterOptions::mirror_filter. The same numbers
+/// whatever the number of threads, and for the same seed. Takes some 3 ms for every texel compared and half a
+/// million texels of source, and core; for a texel of a mirror 1 to 200 ms, the most at its hardest edges.
+/// Throws Error: a source of over kMaxVerifiedTexels, and as PrefilterPlan does; Cancelled.
 WELKIN_API std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<const Map> maps,
                                                            std::span<const PrefilterLevel> levels,
                                                            const VerifyOptions& options = {});
