@@ -12,19 +12,20 @@ constexpr float kGauss3[3] = {0.11270167f, 0.5f, 0.88729833f},
 constexpr float kGauss4[4] = {0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f},
                 kWeights4[4] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
 
-/// Middles of equal parts.
+/// Gauss's two points in each of equal parts: nearly evenly spaced, so that jumps are found, and exact for
+/// quadratics all the same.
 template <int kParts>
-struct Middles {
-  float offset[kParts], weight[kParts];
-  constexpr Middles() : offset(), weight() {
-    for (int i = 0; i < kParts; ++i) {
-      offset[i] = (static_cast<float>(i) + 0.5f) / kParts;
-      weight[i] = 1.0f / kParts;
+struct Pairs {
+  float offset[2 * kParts], weight[2 * kParts];
+  constexpr Pairs() : offset(), weight() {
+    for (int i = 0; i < 2 * kParts; ++i) {
+      offset[i] = (static_cast<float>(i / 2) + kGauss2[i % 2]) / kParts;
+      weight[i] = 0.5f / kParts;
     }
   }
 };
-constexpr Middles<6> kSixths;
-constexpr Middles<8> kEighths;
+constexpr Pairs<3> kSix;
+constexpr Pairs<4> kEight;
 
 }  // namespace
 
@@ -40,8 +41,8 @@ QuadraturePoints quadrature_rule(int number) {
   const QuadraturePoints rules[kQuadratureRules] = {{2, kGauss2, kHalves},
                                                     {3, kGauss3, kWeights3},
                                                     {4, kGauss4, kWeights4},
-                                                    {6, kSixths.offset, kSixths.weight},
-                                                    {8, kEighths.offset, kEighths.weight}};
+                                                    {6, kSix.offset, kSix.weight},
+                                                    {8, kEight.offset, kEight.weight}};
   return rules[number];
 }
 
