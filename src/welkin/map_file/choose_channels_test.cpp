@@ -132,7 +132,8 @@ TEST(ChooseChannels, ThePartWithColourIsRead) {
   EXPECT_EQ(chosen(File().part("a", {"R", "G", "B"}).part("b", {"R", "G", "B"})), "0: R G B !1");
   const ChosenChannels pages = choose(File().part("", {"R", "G", "B"}).part("", {"R", "G", "B"}));
   ASSERT_EQ(pages.warnings.size(), 1u);
-  EXPECT_NE(pages.warnings[0].find("another part can be named: part 1"), std::string::npos) << pages.warnings[0];
+  EXPECT_NE(pages.warnings[0].find("another part can be named: part 1"), std::string::npos)
+      << pages.warnings[0];
 }
 
 TEST(ChooseChannels, DeepPartsAreLeftOutWhereOthersCanBeRead) {
