@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "bake_frames.h"
 #include "bake_levels.h"
 #include "bake_report.h"
 #include "bake_source.h"
@@ -28,6 +29,8 @@ struct Bake {
   WriteFlags write;
   double exposure = 0;
   SanitizeFlags repair;
+  FrameFlags frames;
+  std::string request;  ///< request_of
   bool json = false;
 
   void run();
@@ -92,6 +95,10 @@ WriteMapOptions Bake::parse_write() {
 void Bake::run() {
   // Everything that can be wrong with the request, before any file is touched.
   read.parse();
+  const bool numbered = names_frames(in, out);
+  if (!numbered) frames.check_unused();
+  if (numbered && !verify.empty())
+    throw UsageError("--verify: is for one map; of frames, --held-out measures the error of interpolating");
   const WriteMapOptions write_options = parse_write();
   const PrefilterOptions prefilter = parse_options();
   Matrix3 turn;
@@ -111,6 +118,10 @@ void Bake::run() {
       largest_value(out, write_options.image.type, std::exp2(exposure)), static_cast<double>(kMaxRadiance)));
   repairs.negative_infinite = holds_negative(out, write_options.image.type);
 
+  if (numbered) {
+    return bake_numbered(frames, {in, out, made, read, repair, repairs, write_options, turn,
+                                  std::exp2(exposure), request, json});
+  }
   BakeReport report{in, out, &made, bake_notes(options), {}, {}};
   Clock clock;
   Map source = read_bake_source(in, read, repair, repairs);
@@ -152,14 +163,16 @@ void add_bake(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("bake", "Filter a map with a lobe, for lighting: a chain of levels, or one map");
   command
-      ->add_option("IN", bake->in,
-                   "Map to read; %s in the name stands for a face's name (px, nx…); - is standard input")
+      ->add_option(
+          "IN", bake->in,
+          "Map to read; %s in the name stands for a face's name (px, nx…), %04d or #### for the number of "
+          "a frame; - is standard input")
       ->required();
   command
       ->add_option(
           "OUT", bake->out,
           "File to write; its extension names the format: ktx2 or exr for a chain, any for one map; - is "
-          "standard output, see --format")
+          "standard output, see --format; of frames, a name with %04d or #### too")
       ->required();
   bake->made.add(*command);
   command
@@ -199,11 +212,13 @@ void add_bake(CLI::App& app) {
                       "World of the output: three.js, blender… (`welkin list conventions`)");
   command->add_option("--exposure", bake->exposure, "Brighten by this many stops")->check(finite_number());
   bake->repair.add(*command);
+  bake->frames.add(*command);
   command->add_flag("--json", bake->json, "Machine-readable, on standard output");
   bake->read.add(*command);
   bake->read.add_level(*command, "Level of the input to take. Default: the finest");
   bake->write.add(*command);
-  command->callback([bake] {
+  command->callback([bake, command] {
+    bake->request = request_of(*command);
     const std::vector<std::string> texels = texel_formats();
     const bool stored = std::count(texels.begin(), texels.end(), bake->format) > 0;
     bake->out = output_path(bake->out, stored ? "" : std::exchange(bake->format, ""));

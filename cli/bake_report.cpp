@@ -57,6 +57,40 @@ ordered_json json_of(const LevelVerification& v) {
 
 }  // namespace
 
+ordered_json describe_bake(const std::string& in, const std::string& out, const BakeLevels& made,
+                           const ChainNotes& notes) {
+  return {{"in", in},
+          {"out", out},
+          {"lobe", notes.lobe},
+          {"roughness_curve", notes.curve.empty() ? ordered_json() : ordered_json(notes.curve)},
+          {"normalisation", notes.normalisation},
+          {"parameterization", made.shape->text()},
+          {"tolerance", made.options.prefilter.tolerance}};
+}
+
+ordered_json describe_levels(const BakeLevels& made, const ChainNotes& notes,
+                             const std::vector<PrefilterMethod>& methods) {
+  ordered_json levels = ordered_json::array();
+  for (std::size_t i = 0; i < made.levels.size(); ++i) {
+    ordered_json level{{"level", i},
+                       {"width", made.levels[i].size.width},
+                       {"height", made.levels[i].size.height},
+                       {"lobe", made.levels[i].lobe.spec()}};
+    if (i < notes.roughness.size()) level["roughness"] = notes.roughness[i];
+    if (i < methods.size()) {
+      level["method"] = methods[i].name;
+      if (methods[i].degree > 0) level["degree"] = methods[i].degree;
+      if (methods[i].widened > 0) level["widened_radians"] = methods[i].widened;
+    }
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+void print_json_text(const ordered_json& report) {
+  fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+}
+
 void BakeReport::print() const {
   const BakeLevels& m = *made;
   const std::size_t count = m.levels.size();
@@ -87,30 +121,14 @@ void BakeReport::print() const {
 }
 
 void BakeReport::print_json() const {
-  const BakeLevels& m = *made;
-  ordered_json report{{"in", in},
-                      {"out", out},
-                      {"lobe", notes.lobe},
-                      {"roughness_curve", notes.curve.empty() ? ordered_json() : ordered_json(notes.curve)},
-                      {"normalisation", notes.normalisation},
-                      {"parameterization", m.shape->text()},
-                      {"tolerance", made->options.prefilter.tolerance}};
-  for (std::size_t i = 0; i < m.levels.size(); ++i) {
-    ordered_json level{{"level", i},
-                       {"width", m.levels[i].size.width},
-                       {"height", m.levels[i].size.height},
-                       {"lobe", m.levels[i].lobe.spec()}};
-    if (i < notes.roughness.size()) level["roughness"] = notes.roughness[i];
-    level["method"] = methods[i].name;
-    if (methods[i].degree > 0) level["degree"] = methods[i].degree;
-    if (methods[i].widened > 0) level["widened_radians"] = methods[i].widened;
-    if (!verification.empty()) level["verification"] = json_of(verification[i]);
-    report["levels"].push_back(std::move(level));
-  }
+  ordered_json report = describe_bake(in, out, *made, notes);
+  ordered_json levels = describe_levels(*made, notes, methods);
+  for (std::size_t i = 0; i < verification.size(); ++i) levels[i]["verification"] = json_of(verification[i]);
+  report["levels"] = std::move(levels);
   report["seconds"] = {{"read", read_seconds}, {"plan", plan_seconds}, {"compute", compute_seconds}};
   if (!verification.empty()) report["seconds"]["verify"] = verify_seconds;
   report["seconds"]["write"] = write_seconds;
-  fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  print_json_text(report);
 }
 
 void BakeReport::report_misses() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,15 @@
 #include "welkin/prefilter/verify.h"
 
 namespace welkin::cli {
+
+/// What was asked for, for programs: names, lobe, normalisation, parameterization, tolerance.
+nlohmann::ordered_json describe_bake(const std::string& in, const std::string& out, const BakeLevels& made,
+                                     const ChainNotes& notes);
+/// The levels: sizes, lobes, and methods where there are any.
+nlohmann::ordered_json describe_levels(const BakeLevels& made, const ChainNotes& notes,
+                                       const std::vector<PrefilterMethod>& methods);
+/// On standard output.
+void print_json_text(const nlohmann::ordered_json& report);
 
 /// What `bake` reports.
 struct BakeReport {
