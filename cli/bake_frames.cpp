@@ -80,13 +80,10 @@ struct Repairs {
 };
 
 /// The same error, with the option that helps.
-Error with_remedy(const Error& error, const FrameFlags& flags, const FramesRequest& request) {
-  std::string remedy;
-  if (error.kind() == ErrorKind::bad_value && !request.repair.any())
-    remedy = "; --sanitize repairs NaN and infinite values, --clamp large ones";
-  if (error.kind() == ErrorKind::not_found && error.file() == request.in && flags.frames.empty())
-    remedy = "; --frames A-B bakes a part of them";
-  return {error.kind(), error.file(), error.cause() + remedy};
+Error with_remedy(const Error& error, const FramesRequest& request) {
+  if (error.kind() != ErrorKind::bad_value || request.repair.any()) return error;
+  return {error.kind(), error.file(),
+          error.cause() + "; --sanitize repairs NaN and infinite values, --clamp large ones"};
 }
 
 }  // namespace
@@ -190,7 +187,7 @@ void bake_numbered(const FrameFlags& flags, const FramesRequest& request) {
   } catch (const UsageError&) {
     throw;
   } catch (const Error& error) {
-    throw with_remedy(error, flags, request);
+    throw with_remedy(error, request);
   }
 }
 

@@ -106,9 +106,9 @@ checks=$((checks + 1))
 
 # ---- what can't be done is told before any work
 rm sky/f_0003.hdr sky/f_0005.hdr sky/f_0006.hdr
-refuses 1 'f_%04d.hdr: frames 3, 5–6 are missing of 1–21; --frames A-B bakes a part of them$' \
+refuses 1 'f_%04d.hdr: frames 3, 5–6 are missing of 1–21: ask for a range without gaps$' \
   bake sky/f_%04d.hdr n_%d.exr "${diffuse[@]}"
-refuses 1 'frame 3 is missing of 1–4$' bake sky/f_%04d.hdr n_%d.exr "${diffuse[@]}" --frames 1-4
+refuses 1 'frame 3 is missing of 1–4:' bake sky/f_%04d.hdr n_%d.exr "${diffuse[@]}" --frames 1-4
 refuses 1 'frame 5 is missing of key frames 1, 5, 9,' bake sky/f_%04d.hdr n_%d.exr "${diffuse[@]}" --every 4
 must bake sky/f_%04d.hdr n_%d.exr "${diffuse[@]}" --every 3 --frames 1-21
 refuses 1 'none_%04d.hdr: no file is called so, with a number for %04d' bake none_%04d.hdr n_%d.exr "${diffuse[@]}"

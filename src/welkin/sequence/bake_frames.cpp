@@ -130,10 +130,15 @@ void FrameBaker::plan_work() {
         format.title + " holds no text that would tell which frames are complete: write EXR, KTX2 or HDR");
   const std::vector<int> there = in_.find();
   const FrameRange range = options_.frames.value_or(FrameRange{there.front(), there.back()});
-  const std::vector<int> keys = key_frames(range, options_.every);
-  check_sources_there(in_, keys, there);
-  check_apart(in_, out_, there, options_.between ? key_frames(range, 1) : keys, options_.bake.target);
-  work_ = plan_of(range, {there.begin(), there.end()});
+  try {
+    const std::vector<int> keys = key_frames(range, options_.every);
+    check_sources_there(in_, keys, there);
+    check_apart(in_, out_, there, options_.between ? key_frames(range, 1) : keys, options_.bake.target);
+    work_ = plan_of(range, {there.begin(), there.end()});
+  } catch (const Error& error) {
+    if (!error.file().empty()) throw;
+    throw in_file(in_.name().string(), error);
+  }
   report_.frames = work_.frames;
   report_.complete = work_.complete;
 }

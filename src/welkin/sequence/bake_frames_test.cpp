@@ -125,7 +125,7 @@ TEST_F(BakeFrames, BetweenKeyFramesItInterpolatesAndTellsTheError) {
 
 TEST_F(BakeFrames, OnlyKeyFramesNeedASource) {
   for (const int frame : {2, 3, 4, 6, 7, 8, 10, 11}) fs::remove(in_.file(frame));
-  EXPECT_EQ(failure().cause(), "frames 2–4, 6–8, 10–11 are missing of 1–12");
+  EXPECT_EQ(failure().cause(), "frames 2–4, 6–8, 10–11 are missing of 1–12: ask for a range without gaps");
   EXPECT_EQ(files(), 4u);
   options_.every = 4;
   const BakeFramesReport report = bake_frames(in_, out_, options_);
@@ -134,6 +134,9 @@ TEST_F(BakeFrames, OnlyKeyFramesNeedASource) {
   EXPECT_TRUE(report.held_out.empty());
   options_.frames = FrameRange{1, 20};
   EXPECT_EQ(failure().kind(), ErrorKind::not_found);
+  options_.frames = FrameRange{1, FrameNames::kLargest};
+  EXPECT_EQ(failure().kind(), ErrorKind::too_large);
+  EXPECT_EQ(failure().file(), in_.name().string());
 }
 
 TEST_F(BakeFrames, KeysAloneCanBeWritten) {

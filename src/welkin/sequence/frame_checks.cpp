@@ -43,7 +43,7 @@ void check_sources_there(const FrameNames& in, const std::vector<int>& needed,
   throw Error(ErrorKind::not_found, in.name().string(),
               (missing.size() == 1 ? "frame " : "frames ") + frames_text(missing) +
                   (missing.size() == 1 ? " is missing of " : " are missing of ") +
-                  (all ? "" : "key frames ") + frames_text(needed));
+                  (all ? "" : "key frames ") + frames_text(needed) + ": ask for a range without gaps");
 }
 
 void check_shape(const fs::path& file, const PrefilterShape& shape, const fs::path& first_file,

@@ -29,9 +29,9 @@ std::vector<int> key_frames(FrameRange range, int every) {
           "key frames are of a range that goes up, every 1 or more");
   const std::int64_t count = (std::int64_t{range.last} - range.first) / every + 2;
   if (count > kMostFrames)
-    throw Error(ErrorKind::too_large, "a sequence of frames " + std::to_string(range.first) + " to " +
-                                          std::to_string(range.last) + " has over " +
-                                          std::to_string(kMostFrames));
+    throw Error(ErrorKind::too_large, "frames " + std::to_string(range.first) + " to " +
+                                          std::to_string(range.last) + " are over " +
+                                          std::to_string(kMostFrames) + ": ask for fewer");
   std::vector<int> keys;
   for (std::int64_t frame = range.first; frame < range.last; frame += every)
     keys.push_back(static_cast<int>(frame));
