@@ -16,14 +16,6 @@ double process_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Seconds time_one(const std::function<void()>& job) {
-  const auto wall = std::chrono::steady_clock::now();
-  const double cpu = process_seconds();
-  job();
-  return {process_seconds() - cpu,
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count()};
-}
-
 int thread_count() {
   const int asked = std::atoi(setting("WELKIN_BENCH_THREADS", "2").c_str());
   return std::clamp(asked, 1, 1024);
@@ -66,11 +58,19 @@ Seconds Timing::best() const {
   return {minimum(&Seconds::cpu), minimum(&Seconds::wall)};
 }
 
+Seconds time_once(const std::function<void()>& job) {
+  const auto wall = std::chrono::steady_clock::now();
+  const double cpu = process_seconds();
+  job();
+  return {process_seconds() - cpu,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count()};
+}
+
 std::vector<Timing> time_jobs(const std::vector<std::function<void()>>& jobs, int rounds) {
   for (const auto& job : jobs) job();
   std::vector<Timing> timings(jobs.size());
   for (int round = 0; round < rounds; ++round) {
-    for (std::size_t i = 0; i < jobs.size(); ++i) timings[i].runs.push_back(time_one(jobs[i]));
+    for (std::size_t i = 0; i < jobs.size(); ++i) timings[i].runs.push_back(time_once(jobs[i]));
   }
   return timings;
 }

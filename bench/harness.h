@@ -36,6 +36,9 @@ struct Timing {
   Seconds best() const;
 };
 
+/// Runs a job once.
+Seconds time_once(const std::function<void()>& job);
+
 /// Runs each job once to warm up, then all of them in turn, `rounds` times. Jobs that are to be compared are
 /// timed together, so that whatever else the machine does meets them alike.
 std::vector<Timing> time_jobs(const std::vector<std::function<void()>>& jobs, int rounds = 7);
