@@ -10,6 +10,9 @@
 #include "welkin/base/number_text.h"
 #include "welkin/base/parameter.h"
 #include "welkin/base/version.h"
+#include "welkin/brdf/fresnel.h"
+#include "welkin/brdf/microfacet.h"
+#include "welkin/brdf/table_axis.h"
 #include "welkin/filter/filter.h"
 #include "welkin/filter/resample.h"
 #include "welkin/filter/resample_reference.h"
@@ -66,6 +69,8 @@
 
 /// Environment maps: read, convert, filter, measure, write.
 namespace welkin {}
+/// BRDFs as functions of angles, and their integrals.
+namespace welkin::brdf {}
 /// Pictures ↔ files.
 namespace welkin::io {}
 /// Rotationally symmetric lobes, by which maps are pre-filtered.
