@@ -12,8 +12,7 @@
 /// Marschner, Li & Torrance 2007; Heitz 2014.
 namespace welkin::brdf {
 
-// ------------------------------------------------------------------------------------------- distributions
-// of normals
+// Distributions of normals.
 
 /// GGX from sin²θh, which is precise for narrow lobes, where the cosine isn't: D = α²/(π (α² + (1 − α²)
 /// sin²θh)²), sr⁻¹; ∫ D cos θh dω = 1. At α = 0 it is 0, on the axis NaN. Walter et al. 2007, eq. 33.
@@ -44,8 +43,7 @@ T charlie_distribution(const T& nh, const T& alpha) {
   return charlie_distribution_from_sine<T>((constant<T>(1) - nh) * (constant<T>(1) + nh), alpha);
 }
 
-// --------------------------------------------------------------------------------------- masking and
-// shadowing, GGX
+// Masking and shadowing of GGX.
 
 /// √(α² + (1 − α²) c²) = c √(1 + α² tan²θ), of which all of Smith's terms for GGX are made.
 template <class T>
@@ -114,8 +112,7 @@ T ggx_visibility_approximate(const T& nl, const T& nv, const T& alpha) {
   return constant<T>(0.5) / (constant<T>(2) * nl * nv * rest + (nl + nv) * alpha);
 }
 
-// ------------------------------------------------------------------------------------- masking and
-// shadowing, cloth
+// Masking and shadowing of cloth.
 
 /// V = 1/(4 (n·l + n·v − n·l n·v)), which hides less than facets would. Neubelt & Pettineo 2013.
 template <class T>
@@ -152,8 +149,7 @@ T charlie_visibility(const T& nl, const T& nv, const T& alpha) {
          ((constant<T>(1) + charlie_lambda(nl, alpha) + charlie_lambda(nv, alpha)) * nl * nv);
 }
 
-// -----------------------------------------------------------------------------------------------------------
-// Fresnel
+// Fresnel.
 
 /// Schlick's weight of f90: Fc = (1 − c)⁵. Schlick 1994, eq. 15.
 template <class T>
