@@ -32,9 +32,10 @@ WELKIN_API PixelType pixel_type_from_name(std::string_view name);
 
 /// Which channels a picture of a format can have.
 enum class Channels {
-  rgb,   ///< Y or R G B
-  rgba,  ///< either with A
-  any,   ///< any names, up to as many as a map can have
+  rgb,         ///< Y or R G B
+  rgba,        ///< either with A
+  rg_or_rgba,  ///< the same, or R G alone
+  any,         ///< any names, up to as many as a map can have
 };
 
 /// What a format holds, as Welkin writes it; of one that is only read, as Welkin reads it.

@@ -30,8 +30,9 @@ void check_picture(const Format& chosen, const WritePart& part, const WriteOptio
   }
   checked_quality(options);
   const bool packed = type == PixelType::rgb9e5 || type == PixelType::r11g11b10;
-  if (format.channels != Channels::any) {
-    const Alpha alpha = format.channels == Channels::rgba && !packed ? Alpha::allowed : Alpha::none;
+  const bool two = format.channels == Channels::rg_or_rgba && !packed && is_red_green(part);
+  if (format.channels != Channels::any && !two) {
+    const Alpha alpha = format.channels != Channels::rgb && !packed ? Alpha::allowed : Alpha::none;
     channel_order(part, alpha, packed ? format.title + " of " + std::string(name_of(type)) : format.title);
   }
   check_sides(part, format.longest_side, format.title);

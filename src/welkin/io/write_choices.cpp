@@ -42,6 +42,15 @@ std::vector<int> channel_order(const WritePart& part, Alpha alpha, std::string_v
                                           "; not " + asked);
 }
 
+bool is_red_green(const WritePart& part) {
+  const std::vector<std::string> names{"R", "G"};
+  return std::is_permutation(names.begin(), names.end(), part.channels.begin(), part.channels.end());
+}
+
+std::vector<int> red_green_order(const WritePart& part) {
+  return part.channels.front() == "R" ? std::vector{0, 1} : std::vector{1, 0};
+}
+
 PixelType pixel_type(const WriteOptions& options, std::span<const PixelType> known, std::string_view format) {
   if (!options.type) return known.front();
   if (std::find(known.begin(), known.end(), *options.type) != known.end()) return *options.type;

@@ -23,6 +23,11 @@ enum class Alpha { none, allowed };
 /// name is grey.
 std::vector<int> channel_order(const WritePart& part, Alpha alpha, std::string_view format);
 
+/// Whether the part's channels are R and G alone, in either order: textures of two channels.
+bool is_red_green(const WritePart& part);
+/// Which of them are R and G.
+std::vector<int> red_green_order(const WritePart& part);
+
 /// The type asked for, which must be one of `known`; the first of them by default.
 PixelType pixel_type(const WriteOptions& options, std::span<const PixelType> known, std::string_view format);
 

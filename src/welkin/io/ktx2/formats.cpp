@@ -77,10 +77,11 @@ const TexelFormat* find_format(std::uint32_t number) {
   return found == std::end(kRead) ? nullptr : found;
 }
 
-const TexelFormat& format_for(PixelType type) {
-  constexpr std::uint32_t kHalfRgba = 97, kFloatRgba = 109, kB10G11R11 = 122, kE5B9G9R9 = 123;
-  std::uint32_t number = kFloatRgba;
-  if (type == PixelType::half) number = kHalfRgba;
+const TexelFormat& format_for(PixelType type, bool two_channels) {
+  constexpr std::uint32_t kHalfRg = 83, kFloatRg = 103, kHalfRgba = 97, kFloatRgba = 109, kB10G11R11 = 122,
+                          kE5B9G9R9 = 123;
+  std::uint32_t number = two_channels ? kFloatRg : kFloatRgba;
+  if (type == PixelType::half) number = two_channels ? kHalfRg : kHalfRgba;
   if (type == PixelType::r11g11b10) number = kB10G11R11;
   if (type == PixelType::rgb9e5) number = kE5B9G9R9;
   const TexelFormat* format = find_format(number);

@@ -45,7 +45,8 @@ struct TexelFormat {
 /// Null when texels of that format are not read.
 const TexelFormat* find_format(std::uint32_t number);
 
-/// The format that pixels of a type are written in: float32 and half with alpha, rgb9e5, r11g11b10.
-const TexelFormat& format_for(PixelType type);
+/// The format that pixels of a type are written in: float32 and half with alpha, rgb9e5, r11g11b10; or
+/// float32 and half of two channels, R and G.
+const TexelFormat& format_for(PixelType type, bool two_channels = false);
 
 }  // namespace welkin::io::ktx2

@@ -243,7 +243,7 @@ Format ktx2_format() {
            .extensions = {"ktx2"},
            .types = {PixelType::float32, PixelType::half, PixelType::rgb9e5, PixelType::r11g11b10},
            .compressions = {"none", "zstd"},
-           .channels = Channels::rgba,
+           .channels = Channels::rg_or_rgba,
            .pictures = true,
            .levels = true,
            .texture = true,

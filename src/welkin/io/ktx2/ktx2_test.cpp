@@ -346,5 +346,54 @@ TEST(Ktx2, DescriptorSaysWhatATexelIs) {
          {27, 5, 0x22, 15, 31}});
 }
 
+/// Textures of two channels, as tables are: R and G alone, in either order, plain and packed by zstd.
+TEST(Ktx2, KeepsTwoChannelsAsTwo) {
+  const Image image = noise(5, 3, 2, 7);
+  for (const PixelType type : {PixelType::half, PixelType::float32}) {
+    for (const std::string compression : {"none", "zstd"}) {
+      for (const auto& names : {std::vector<std::string>{"R", "G"}, std::vector<std::string>{"G", "R"}}) {
+        WriteOptions options;
+        options.type = type;
+        options.compression = compression;
+        const WritePart part{"", image.view(), names};
+        const Bytes bytes = encoded_parts({&part, 1}, options);
+        // VK_FORMAT_R16G16_SFLOAT and VK_FORMAT_R32G32_SFLOAT, and the bytes of a value.
+        EXPECT_EQ(word(bytes, 12), type == PixelType::half ? 83u : 103u);
+        EXPECT_EQ(word(bytes, 16), type == PixelType::half ? 2u : 4u);
+        const auto reader = open(bytes, "a.ktx2");
+        ASSERT_EQ(reader->info().parts.size(), 1u);
+        EXPECT_EQ(reader->info().parts[0].channels, (std::vector<std::string>{"R", "G"}));
+        EXPECT_EQ(reader->info().parts[0].type, type);
+        const Image again = read_part(*reader, 0);
+        for (int y = 0; y < 3; ++y) {
+          for (int x = 0; x < 5; ++x) {
+            for (int k = 0; k < 2; ++k) {
+              const float wanted = image.at(x, y)[names[0] == "R" ? k : 1 - k];
+              EXPECT_NEAR(again.at(x, y)[k], wanted, tolerance(type, wanted, wanted))
+                  << x << " " << y << " " << k;
+            }
+          }
+        }
+      }
+    }
+  }
+  // Packed types have three.
+  WriteOptions packed;
+  packed.type = PixelType::rgb9e5;
+  const WritePart part{"", image.view(), {"R", "G"}};
+  EXPECT_THROW(encoded_parts({&part, 1}, packed), Error);
+}
+
+TEST(Ktx2, CountsWhatTwoChannelsLose) {
+  Image image(300, 1, 2);
+  *image.at(0, 0) = 1e6f;
+  image.at(299, 0)[1] = -1e6f;
+  MemorySink sink;
+  WriteOptions options;
+  options.type = PixelType::half;
+  const WritePart part{"", image.view(), {"R", "G"}};
+  EXPECT_EQ(write(sink, "ktx2", {&part, 1}, options).above, 2u);
+}
+
 }  // namespace
 }  // namespace welkin::io::test

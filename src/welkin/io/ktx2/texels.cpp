@@ -200,11 +200,12 @@ void decode_fields(const TexelFormat& format, const std::byte* stored, int count
 
 }  // namespace
 
-TexelEncoder::TexelEncoder(PixelType type, std::vector<int> order, Colour colour)
+TexelEncoder::TexelEncoder(PixelType type, std::vector<int> order, Colour colour, bool two_channels)
     : type_(type),
-      texel_bytes_(format_for(type).bytes()),
+      texel_bytes_(format_for(type, two_channels).bytes()),
       order_(std::move(order)),
-      srgb_(colour == Colour::srgb) {
+      srgb_(colour == Colour::srgb),
+      two_channels_(two_channels) {
   const bool packed = type == PixelType::rgb9e5 || type == PixelType::r11g11b10;
   assert(packed ? order_.size() == 1 || order_.size() == 3 : !order_.empty());
   static_cast<void>(packed);
@@ -231,6 +232,7 @@ void TexelEncoder::encode(const float* in, int channels, int count, std::byte* o
     return;
   }
 
+  if (two_channels_) return encode_two(in, channels, count, out, report);
   const bool alpha = order_.size() % 2 == 0;
   const Colours& colours = order_.size() <= 2 ? kGrey : kRgb;
   Planes planes;
@@ -243,6 +245,26 @@ void TexelEncoder::encode(const float* in, int channels, int count, std::byte* o
     }
     if (alpha) gather(in + order_.back(), channels, n, planes[3].data());
     encode_segment(type_, planes, colours, n, out, report);
+    out += static_cast<std::size_t>(n) * texel_bytes_;
+  }
+}
+
+void TexelEncoder::encode_two(const float* in, int channels, int count, std::byte* out,
+                              WriteReport& report) const {
+  Plane<float> plane;
+  Plane<std::uint16_t> halves;
+  for (int n = 0; count > 0; count -= n, in += static_cast<std::ptrdiff_t>(n) * channels) {
+    n = std::min(count, kSegment);
+    for (std::size_t k = 0; k < 2; ++k) {
+      gather(in + order_[k], channels, n, plane.data());
+      if (srgb_) encode_srgb(plane.data(), n);
+      if (type_ == PixelType::half) to_halves(plane.data(), n, halves.data(), report);
+      const std::size_t bytes = texel_bytes_ / 2;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+        const void* const value = type_ == PixelType::half ? static_cast<const void*>(&halves[i]) : &plane[i];
+        std::memcpy(out + i * texel_bytes_ + k * bytes, value, bytes);
+      }
+    }
     out += static_cast<std::size_t>(n) * texel_bytes_;
   }
 }

@@ -20,17 +20,21 @@ namespace welkin::io::ktx2 {
 class TexelEncoder {
  public:
   /// `order` as channel_order gives it: Y, Y A, R G B or R G B A; no A for packed types. `colour` is linear
-  /// or srgb, in which colour values are encoded before they are stored.
-  TexelEncoder(PixelType type, std::vector<int> order, Colour colour);
+  /// or srgb, in which colour values are encoded before they are stored. With `two_channels`, order says
+  /// which channels are R and G, and texels hold these alone.
+  TexelEncoder(PixelType type, std::vector<int> order, Colour colour, bool two_channels = false);
 
   /// `count` texels of `channels` values at `in`, to `out`, of any alignment.
   void encode(const float* in, int channels, int count, std::byte* out, WriteReport& report) const;
 
  private:
+  void encode_two(const float* in, int channels, int count, std::byte* out, WriteReport& report) const;
+
   PixelType type_;
   std::size_t texel_bytes_;
   std::vector<int> order_;
   bool srgb_;
+  bool two_channels_;
   bool copies_;
 };
 

@@ -125,16 +125,22 @@ class Writer {
                                       PixelType::r11g11b10};
     static const std::array<std::string, 2> known{"none", "zstd"};
     const PixelType type = pixel_type(options, types, "KTX2");
-    header_.format = &format_for(type);
+    const bool two =
+        !format_for(type).packed() &&
+        std::all_of(parts.begin(), parts.end(), [](const WritePart& part) { return is_red_green(part); });
+    header_.format = &format_for(type, two);
     header_.scheme = compression(options, known, "KTX2") == "zstd" ? Scheme::zstd : Scheme::none;
     const Colour colour = colour_for(type, options.colour);
     const bool packed = header_.format->packed();
     const std::string holder = packed ? "KTX2 of " + std::string(io::name_of(type)) : "KTX2";
     for (std::size_t level = 0; level < header_.levels.size(); ++level) {
-      for (std::size_t i = 0; i < pictures_.of_level(); ++i)
-        encoders_.emplace_back(
-            type, channel_order(pictures_.at(level, i), packed ? Alpha::none : Alpha::allowed, holder),
-            colour);
+      for (std::size_t i = 0; i < pictures_.of_level(); ++i) {
+        const WritePart& picture = pictures_.at(level, i);
+        encoders_.emplace_back(type,
+                               two ? red_green_order(picture)
+                                   : channel_order(picture, packed ? Alpha::none : Alpha::allowed, holder),
+                               colour, two);
+      }
     }
 
     const std::vector<std::byte> descriptor = written_descriptor(*header_.format, colour, has_alpha(parts));
