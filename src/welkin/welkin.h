@@ -53,6 +53,7 @@
 #include "welkin/measure/energy.h"
 #include "welkin/measure/statistics.h"
 #include "welkin/plot/draw_density.h"
+#include "welkin/plot/draw_fresnel.h"
 #include "welkin/plot/draw_lobes.h"
 #include "welkin/plot/mip_sheet.h"
 #include "welkin/prefilter/bake.h"

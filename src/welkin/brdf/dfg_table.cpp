@@ -113,7 +113,8 @@ SplitSum operator*(double factor, const SplitSum& sum) {
 /// interpolated above these where that is less work.
 template <class Value, class Integral>
 std::vector<Value> along_cosines(const std::vector<double>& cosines, const Integral& integral) {
-  const std::size_t lowest = std::max<std::size_t>(1, cosines.size() / 16);
+  constexpr std::size_t kShare = 16, kMost = 8;
+  const std::size_t lowest = std::clamp<std::size_t>(cosines.size() / kShare, 1, kMost);
   std::vector<Value> values;
   for (std::size_t i = 0; i < lowest; ++i) values.push_back(integral(cosines[i]));
   const std::size_t rest = cosines.size() - lowest;

@@ -61,6 +61,14 @@ TEST(DfgTable, IsTheReferenceForClothAndDiffuseToo) {
                    {1e-5, 1e-5, 1e-6, 0});
 }
 
+/// Where rows are long, most of a row is interpolated.
+TEST(DfgTable, IsTheReferenceInLongRows) {
+  using enum DfgChannel;
+  expect_reference({.width = 1500, .height = 3, .channels = {bias, one}}, {1e-6, 1e-6});
+  expect_reference({.width = 1500, .height = 3, .placement = TexelPlacement::ends, .channels = {bias, cloth}},
+                   {1e-6, 1e-5});
+}
+
 TEST(DfgTable, TurnsAndScalesItsAxes) {
   const DfgTable across{.width = 40, .height = 8};
   DfgTable down{.width = 8, .height = 40, .cosine_down = true};

@@ -88,6 +88,12 @@ TEST(EngineTables, HoldTheIntegralsExactlyAtTheirTexels) {
   EXPECT_NEAR(three.at(9, 3)[0], there.scale(), 2e-6);
   EXPECT_NEAR(three.at(9, 3)[1], there.bias(), 2e-6);
   const Image unity = make_dfg_table(engine_table("unity-hdrp").table);
+  const Image unreal = make_dfg_table(engine_table("unreal").table);
+  const double nv = 30.5 / 128, alpha = 0.390625 * 0.390625;  // row 12 of 32
+  const SplitSum rootless = test::ggx_by_half_vectors(
+      nv, alpha, [&](double nl) { return ggx_visibility_approximate(nl, nv, alpha); });
+  EXPECT_NEAR(unreal.at(30, 12)[0], rootless.scale(), 2e-6);
+  EXPECT_NEAR(unreal.at(30, 12)[1], rootless.bias(), 2e-6);
   const SplitSum corner = integral(1, 1);
   EXPECT_NEAR(unity.at(63, 63)[1], corner.one, 2e-6);
   EXPECT_NEAR(unity.at(63, 63)[2], disney_diffuse_albedo(1, 1) - 0.5, 1e-6);

@@ -10,6 +10,7 @@
 #include "welkin/image/drawing.h"
 #include "welkin/lobe/angle.h"
 #include "welkin/lobe/panels.h"
+#include "welkin/plot/polyline.h"
 
 namespace welkin {
 namespace {
@@ -18,17 +19,6 @@ using lobe::AnyLobe;
 
 constexpr Rgb kGrid{0.75f, 0.75f, 0.75f};
 constexpr int kDecades = 6;
-
-struct Point {
-  double x, y;
-};
-
-double distance(const Point& p, const Point& a, const Point& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const double along = square > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / square : 0;
-  const double t = std::clamp(along, 0.0, 1.0);
-  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
-}
 
 /// Where the figure's axes lie in the picture.
 class Frame {
@@ -113,32 +103,10 @@ void draw_curve(Image& picture, const AnyLobe& lobe, const Frame& frame, const R
   std::vector<double> weights;
   for (const double angle : angles) weights.push_back(lobe.weight(lobe::s_of_angle(angle / 180 * kPi)));
   const double largest = *std::max_element(weights.begin(), weights.end());
-  // A pixel is covered by the maximum over the curve's segments, so that joints don't show.
-  const Box& box = frame.box();
-  const double half_width = frame.text() / 9.0;
-  std::vector<float> cover(static_cast<std::size_t>(picture.width()) *
-                           static_cast<std::size_t>(picture.height()));
-  for (std::size_t i = 0; i + 1 < angles.size() && frame.x(angles[i + 1]) <= box.x + box.width; ++i) {
-    const Point a{frame.x(angles[i]), frame.y(weights[i] / largest)};
-    const Point b{frame.x(angles[i + 1]), frame.y(weights[i + 1] / largest)};
-    const int right = std::min(static_cast<int>(b.x + half_width + 1), box.x + box.width);
-    const int low = std::min(static_cast<int>(std::max(a.y, b.y) + half_width + 1), box.y + box.height);
-    for (int y = std::max(static_cast<int>(std::min(a.y, b.y) - half_width - 1), 0); y <= low; ++y) {
-      for (int x = static_cast<int>(a.x - half_width - 1); x <= right; ++x) {
-        const double here = half_width + 0.5 - distance({x + 0.5, y + 0.5}, a, b);
-        float& maximum = cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width()) +
-                               static_cast<std::size_t>(x)];
-        maximum = std::max(maximum, static_cast<float>(here));
-      }
-    }
-  }
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      blend(picture, x, y, color,
-            cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width()) +
-                  static_cast<std::size_t>(x)]);
-    }
-  }
+  std::vector<PlotPoint> points;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    points.push_back({frame.x(angles[i]), frame.y(weights[i] / largest)});
+  draw_polyline(picture, points, 2 * frame.text() / 9.0, color, frame.box());
 }
 
 }  // namespace
