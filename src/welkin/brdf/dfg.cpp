@@ -6,6 +6,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
 #include "welkin/brdf/azimuth_rule.h"
+#include "welkin/brdf/dfg_limits.h"
 #include "welkin/brdf/graded_rule.h"
 #include "welkin/brdf/microfacet.h"
 #include "welkin/lobe/angle.h"
@@ -124,7 +125,7 @@ SplitSum ggx_split_sum(double nv, double roughness, GgxMasking masking) {
                total.one += w * around.one;
                total.fc += w * around.fc;
              });
-  return total;
+  return within_limits(total, masking);
 }
 
 double ggx_average_albedo(double roughness, GgxMasking masking) {

@@ -53,9 +53,10 @@ inline constexpr double kSmallestClothRoughness = 1.0 / 1024;
 /// bound.
 inline constexpr double kSmallestClothCosine = 1e-4;
 
-/// ∫ f (n·l) dω of Charlie with F = 1. It isn't bounded by 1: the model makes light at grazing angles. Error
-/// 1e-6, of ClothMasking::charlie, whose fit bends, 1e-5: absolute below 1, relative above it. Smaller
-/// roughness and n·v give what the smallest (above) do.
+/// ∫ f (n·l) dω of Charlie with F = 1. It isn't bounded by 1: the model makes light at grazing angles. Error,
+/// absolute below 1 and relative above it: 1e-6, of ClothMasking::charlie, whose fit bends, 1e-5; of both
+/// 2e-5 below roughness 0.1, where the albedo rises to 100 at the horizon. Smaller roughness and n·v give
+/// what the smallest (above) do.
 WELKIN_API double charlie_albedo(double nv, double roughness, ClothMasking masking = ClothMasking::neubelt);
 
 /// ∫ f (n·l) dω of Disney's diffuse term, (1 + g (1 − n·l)⁵)(1 + g (1 − n·v)⁵)/π with g = 2 roughness (l·h)²

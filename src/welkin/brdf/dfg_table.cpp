@@ -8,6 +8,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/brdf/chebyshev.h"
+#include "welkin/brdf/dfg_limits.h"
 
 namespace welkin::brdf {
 namespace {
@@ -157,7 +158,7 @@ std::vector<std::vector<double>> line_of(const DfgTable& table, const std::vecto
     std::vector<double>& values = line.emplace_back();
     for (std::size_t i = 0; i < cosines.size(); ++i) {
       const Kind kind = kind_of(channel);
-      values.push_back(kind == Kind::ggx     ? ggx_value(channel, ggx[i])
+      values.push_back(kind == Kind::ggx     ? ggx_value(channel, within_limits(ggx[i], table.masking))
                        : kind == Kind::cloth ? cloth[i]
                                              : dfg_value(channel, cosines[i], roughness));
     }

@@ -69,6 +69,21 @@ TEST(DfgTable, IsTheReferenceInLongRows) {
                    {1e-6, 1e-5});
 }
 
+/// Rounding takes no value out of what integers hold.
+TEST(DfgTable, StaysWithinItsLimits) {
+  using enum DfgChannel;
+  for (const GgxMasking masking : {GgxMasking::correlated, GgxMasking::separable}) {
+    const DfgTable table{.masking = masking, .channels = {scale, bias, one, missing}};
+    const Image image = make_dfg_table(table);
+    for (int y = 0; y < table.height; ++y) {
+      for (int i = 0; i < 4 * table.width; ++i) {
+        EXPECT_GE(image.at(0, y)[i], 0) << y;
+        EXPECT_LE(image.at(0, y)[i], 1) << y;
+      }
+    }
+  }
+}
+
 TEST(DfgTable, TurnsAndScalesItsAxes) {
   const DfgTable across{.width = 40, .height = 8};
   DfgTable down{.width = 8, .height = 40, .cosine_down = true};
