@@ -41,6 +41,7 @@ void add_sample(CLI::App& app);
 void add_diff(CLI::App& app);
 void add_synth(CLI::App& app);
 void add_plot(CLI::App& app);
+void add_lut(CLI::App& app);
 void add_list(CLI::App& app);
 
 /// Accepts finite numbers of at least `minimum`.

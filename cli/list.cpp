@@ -4,6 +4,7 @@
 #include <map>
 
 #include "command.h"
+#include "welkin/brdf/engine_tables.h"
 #include "welkin/filter/resample.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/lobe/roughness_curve.h"
@@ -80,6 +81,11 @@ const std::map<std::string, std::function<void()>>& lists() {
              fmt::print("{}{}\n", extension, format.writable ? "" : "  read only");
          }
        }},
+      {"luts",
+       [] {
+         for (const auto& each : brdf::engine_tables())
+           fmt::print("{:<16} {}\n", each.name, each.description);
+       }},
       {"maps", [] {
          for (const auto& name : synth::names()) fmt::print("{:<12} {}\n", name, synth::description(name));
        }}};
@@ -96,7 +102,7 @@ void add_list(CLI::App& app) {
   command
       ->add_option(
           "WHAT", *what,
-          "conventions, curves, filters, formats, layouts, lobes, maps, parameterizations, parameters")
+          "conventions, curves, filters, formats, layouts, lobes, luts, maps, parameterizations, parameters")
       ->capture_default_str();
   command->callback([what, names] {
     const auto found = lists().find(*what);

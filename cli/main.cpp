@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   cli::add_diff(app);
   cli::add_synth(app);
   cli::add_plot(app);
+  cli::add_lut(app);
   cli::add_list(app);
   std::vector<std::string> topics;
   CLI::App* help = app.add_subcommand("help", "Help on a command");

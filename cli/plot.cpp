@@ -77,7 +77,7 @@ struct PlotMips {
 }  // namespace
 
 void add_plot(CLI::App& app) {
-  CLI::App* plot = app.add_subcommand("plot", "Plot texel densities, lobes or a map's pyramid");
+  CLI::App* plot = app.add_subcommand("plot", "Plot texel densities, lobes, reflectances or a map's pyramid");
   plot->require_subcommand(1);
 
   auto density = std::make_shared<PlotDensity>();
@@ -112,6 +112,7 @@ void add_plot(CLI::App& app) {
   });
 
   add_plot_lobe(*plot);
+  add_plot_fresnel(*plot);
 }
 
 }  // namespace welkin::cli

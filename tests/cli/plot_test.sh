@@ -50,4 +50,13 @@ refuses 2 "wrong.txt: line 2: the angle -1° is not in 0…180°" plot lobe --lo
 refuses 2 angle plot lobe --angle 0
 refuses 2 axis plot lobe --axis cubic
 
+# Reflectances: closed forms at 0°, and the pictures.
+near "f0 of glass" "$("$welkin" plot fresnel --eta 1.5 --json | number f0)" 0.04 1e-12
+near "f0 of a metal" "$("$welkin" plot fresnel --eta 0.5,2 --json | number f0)" "$(awk 'BEGIN { print (0.25 + 4) / (2.25 + 4) }')" 1e-5
+must plot fresnel fresnel.png --size 300
+matches '"format": "png"' info fresnel.png --header --json
+refuses 2 "the index's n is 0" plot fresnel --eta 0
+refuses 2 "is not N or N,K" plot fresnel --eta 1,2,3
+refuses 2 "is not a number" plot fresnel --eta glass
+
 finish
