@@ -15,7 +15,8 @@ using brdf::DfgTable, brdf::TexelPlacement;
 using nlohmann::ordered_json;
 
 struct Lut {
-  std::string out, kind = "dfg", engine, size, channels, cosine, roughness, texels, masking, type, format;
+  std::string out, kind = "dfg", engine, size, cosine, roughness, texels, masking, type, format;
+  std::optional<std::string> channels;
   std::optional<double> eta, n, k;
   bool cosine_down = false, multiscatter = false, json = false;
 
@@ -62,13 +63,13 @@ DfgTable Lut::dfg_table() const {
   if (!masking.empty())
     table.masking = parse_option("--masking", [&] { return brdf::ggx_masking_from_name(masking); });
   if (multiscatter) table.channels = {brdf::DfgChannel::bias, brdf::DfgChannel::one};
-  if (channels.empty()) return table;
+  if (!channels) return table;
   if (multiscatter) throw UsageError("--multiscatter: stands for --channels bias,one; give one of them");
   table.channels.clear();
-  for (std::size_t from = 0; from <= channels.size();) {
-    const std::size_t comma = std::min(channels.find(',', from), channels.size());
+  for (std::size_t from = 0; from <= channels->size();) {
+    const std::size_t comma = std::min(channels->find(',', from), channels->size());
     table.channels.push_back(parse_option(
-        "--channels", [&] { return brdf::dfg_channel_from_name(channels.substr(from, comma - from)); }));
+        "--channels", [&] { return brdf::dfg_channel_from_name(channels->substr(from, comma - from)); }));
     from = comma + 1;
   }
   return table;
@@ -85,7 +86,7 @@ brdf::Boundary Lut::boundary() const {
 Image Lut::make(ordered_json& report) {
   const bool dfg = kind == "dfg", fresnel = kind == "fresnel";
   refuse("for", !dfg && !engine.empty());
-  refuse("channels", !dfg && !channels.empty());
+  refuse("channels", !dfg && channels);
   refuse("multiscatter", !dfg && multiscatter);
   refuse("cosine-down", !dfg && cosine_down);
   refuse("cosine", !dfg && !cosine.empty());

@@ -69,7 +69,8 @@ grep -q '^static const float my_table\[32\] = {$' my-table.h || fail "my-table.h
 # What makes no table.
 refuses 2 "did you mean 'filament'" lut out.ktx2 --for filamnt
 refuses 2 "unknown channel 'sacle'; did you mean 'scale'" lut out.ktx2 --channels sacle
-refuses 2 "unknown channel ''" lut out.ktx2 --channels ''one,
+refuses 2 "unknown channel ''" lut out.ktx2 --channels one,
+refuses 2 "unknown channel ''" lut out.ktx2 --channels ""
 refuses 2 "one to four channels" lut out.ktx2 --channels one,one,one,one,one
 refuses 2 "give one of them" lut out.ktx2 --channels one --multiscatter
 refuses 2 "masking 'smith'" lut out.ktx2 --masking smith
