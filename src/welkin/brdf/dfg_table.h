@@ -51,7 +51,7 @@ WELKIN_API std::string_view name_of(GgxMasking masking);
 WELKIN_API GgxMasking ggx_masking_from_name(std::string_view name);
 
 /// A table's axes and contents. The top left texel is that of n·v and roughness nearest to 0.
-struct DfgTable {
+struct WELKIN_API DfgTable {
   int width = 128;                                        ///< texels, 1…4096
   int height = 128;                                       ///< rows, 1…4096
   bool cosine_down = false;                               ///< n·v runs down and roughness right
