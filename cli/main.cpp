@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   cli::add_convert(app);
   cli::add_bake(app);
   cli::add_sample(app);
+  cli::add_importance(app);
   cli::add_diff(app);
   cli::add_synth(app);
   cli::add_plot(app);

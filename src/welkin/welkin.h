@@ -29,6 +29,8 @@
 #include "welkin/io/image_file.h"
 #include "welkin/io/output_file.h"
 #include "welkin/io/process.h"
+#include "welkin/light/importance.h"
+#include "welkin/light/importance_file.h"
 #include "welkin/lobe/custom.h"
 #include "welkin/lobe/energy.h"
 #include "welkin/lobe/lobe.h"
