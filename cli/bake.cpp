@@ -142,6 +142,7 @@ void Bake::run() {
     VerifyOptions verify_options;
     verify_options.prefilter = options.prefilter;
     verify_options.random_texels = std::stoi(verify);
+    verify_options.own_texels = options.method != BakeMethod::exact;
     verify_options.monitor = progress_monitor("verify");
     report.verification = verify_prefilter(source, chain.levels, made.levels, verify_options);
     end_progress();

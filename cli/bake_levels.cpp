@@ -30,6 +30,10 @@ void BakeLevels::add(CLI::App& command) {
                   "resampled, whatever the curve says")
       ->check(CLI::IsMember({"filtered", "source"}))
       ->capture_default_str();
+  command
+      .add_option("--method", method,
+                  "exact, or paraboloid-convolution: an approximation of 2000, into --to paraboloid")
+      ->capture_default_str();
 }
 
 void BakeLevels::check_one_lobe(const lobe::AnyLobe& lobe) const {
@@ -50,6 +54,10 @@ void BakeLevels::parse(const std::string& out, const WriteFlags& write) {
   if (!options.chain) check_one_lobe(options.lobe);
   shape = parse_option("--to", [&] { return parse_map_shape_for(out, to); });
   options.target = shape->parameterization;
+  options.method = parse_option("--method", [&] { return bake_method_from_name(method); });
+  if (options.method == BakeMethod::paraboloid_convolution && options.target.name() != "paraboloid")
+    throw UsageError(fmt::format("--method: {} makes paraboloid maps, not {}: give --to paraboloid", method,
+                                 options.target.spec()));
   if (!size.empty()) options.size = parse_chart_size("--size", size, options.target);
   if (options.chain) {
     options.levels = count.value_or(0);

@@ -11,7 +11,7 @@ namespace welkin::cli {
 
 /// What `bake` makes: one lobe, or a chain of a lobe at several roughnesses.
 struct BakeLevels {
-  std::string lobe_spec = "ggx", roughness, to = "cube", size, level0 = "filtered";
+  std::string lobe_spec = "ggx", roughness, to = "cube", size, level0 = "filtered", method = "exact";
   std::optional<int> count;
 
   void add(CLI::App& command);

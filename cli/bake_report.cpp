@@ -132,6 +132,7 @@ void BakeReport::print_json() const {
 }
 
 void BakeReport::report_misses() const {
+  if (made->options.method != BakeMethod::exact) return;
   for (std::size_t i = 0; i < verification.size(); ++i) {
     const ReferenceErrors& reference = verification[i].reference;
     if (reference.relative_rmse <= made->options.prefilter.tolerance) continue;

@@ -4,7 +4,9 @@
 
 #include "plot.h"
 #include "welkin/plot/draw_density.h"
+#include "welkin/plot/draw_distortion.h"
 #include "welkin/plot/mip_sheet.h"
+#include "welkin/prefilter/paraboloid_convolution.h"
 
 namespace welkin::cli {
 namespace {
@@ -74,10 +76,51 @@ struct PlotMips {
   }
 };
 
+struct PlotDistortion {
+  std::string out, format;
+  int width = 720;
+
+  void run() const {
+    if (!out.empty()) {
+      check_output(out, parse_map_shape("latlong"));
+      const Image picture = draw_circle_distortion(width);
+      const io::WritePart part{"", picture.view(), {"R", "G", "B"}};
+      io::write(out, {&part, 1});
+    }
+    fmt::print(
+        "distortion %, radius r of the circle, distance d of its centre from the face's; the rim is 1\n");
+    fmt::print("{:>5}", "r");
+    for (int i = 0; i <= 4; ++i) fmt::print(" {:>8}", fmt::format("d {:g}", i / 4.0));
+    fmt::print("\n");
+    for (int k = 1; k <= 5; ++k) {
+      fmt::print("{:>5g}", k / 10.0);
+      for (int i = 0; i <= 4; ++i) fmt::print(" {:>8.2f}", 100 * circle_distortion(k / 10.0, i / 4.0));
+      fmt::print("\n");
+    }
+  }
+};
+
+void add_plot_distortion(CLI::App& plot) {
+  auto request = std::make_shared<PlotDistortion>();
+  CLI::App* command = plot.add_subcommand(
+      "distortion", "How far circles on a paraboloid map are from circles about the same point");
+  command->add_option("OUT", request->out,
+                      "Picture to write; without it, only the numbers; - is standard output, see --format");
+  command->add_option("--size", request->width, "Width of the picture")
+      ->check(CLI::Range(200, 4096))
+      ->capture_default_str();
+  add_format(*command, request->format);
+  command->callback([request] {
+    request->out = output_path(request->out, request->format);
+    request->run();
+  });
+}
+
 }  // namespace
 
 void add_plot(CLI::App& app) {
-  CLI::App* plot = app.add_subcommand("plot", "Plot texel densities, lobes, reflectances or a map's pyramid");
+  CLI::App* plot = app.add_subcommand(
+      "plot", "Plot texel densities, lobes, reflectances, a map's pyramid or circles on paraboloids");
   plot->require_subcommand(1);
 
   auto density = std::make_shared<PlotDensity>();
@@ -113,6 +156,7 @@ void add_plot(CLI::App& app) {
 
   add_plot_lobe(*plot);
   add_plot_fresnel(*plot);
+  add_plot_distortion(*plot);
 }
 
 }  // namespace welkin::cli

@@ -5,8 +5,8 @@
 namespace welkin {
 
 /// A small stroke font, for labels drawn by distance. Text is centred on the origin, x right and y down as
-/// the reader sees it, capitals one unit high from y = −½ to ½. It has `+ - X Y Z °` and digits; ° is written
-/// as `o`.
+/// the reader sees it, capitals one unit high from y = −½ to ½. It has `+ - . % X Y Z °` and digits; ° is
+/// written as `o`.
 
 /// Distance from (x, y) to the middle line of the nearest stroke. Ink is where it is below half of the wanted
 /// stroke's weight.

@@ -1,17 +1,28 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "welkin/base/export.h"
 #include "welkin/lobe/roughness_curve.h"
 #include "welkin/map/chain.h"
+#include "welkin/prefilter/paraboloid_convolution.h"
 #include "welkin/prefilter/prefilter.h"
 
 /// @file
 /// From a map to the chain that a renderer loads: which levels there are, how large, filtered with what, and
 /// what is noted of them.
 namespace welkin {
+
+/// How levels are filtered.
+enum class BakeMethod {
+  exact,                   ///< by PrefilterPlan
+  paraboloid_convolution,  ///< approximately: by convolve_paraboloid (paraboloid_convolution.h)
+};
+
+/// `exact`, `paraboloid-convolution`. Throws Error (bad_request) for another name.
+WELKIN_API BakeMethod bake_method_from_name(std::string_view name);
 
 /// What is baked.
 struct BakeOptions {
@@ -35,6 +46,11 @@ struct BakeOptions {
   bool keep_alpha = false;
   /// Tolerance, orientation and borders of the results.
   PrefilterOptions prefilter = {};
+  /// How levels are filtered. `paraboloid_convolution` makes paraboloid maps only, all levels from the source
+  /// resampled to level 0; no tolerance holds.
+  BakeMethod method = BakeMethod::exact;
+  /// Of that method.
+  ParaboloidConvolutionOptions paraboloid = {};
 };
 
 /// Charts of level 0: BakeOptions::size, or its default.
@@ -44,8 +60,8 @@ WELKIN_API ChartSize default_bake_size(const BakeOptions& options);
 WELKIN_API int bake_level_count(const BakeOptions& options);
 
 /// The levels that bake makes. Throws Error (bad_request): more levels than the size has; a curve's list for
-/// another number of levels; levels, a curve's list or mirror_level0 for a lobe without roughness; and as
-/// roughness_levels does.
+/// another number of levels; levels, a curve's list or mirror_level0 for a lobe without roughness; a method
+/// that doesn't make maps of the target; and as roughness_levels does.
 WELKIN_API std::vector<PrefilterLevel> bake_levels(const BakeOptions& options);
 
 /// What is noted of them: lobe, roughness, curve, normalisation, software.
@@ -68,13 +84,14 @@ class WELKIN_API BakePlan {
   /// Size and lobe of each level; valid as long as the plan.
   const std::vector<PrefilterLevel>& levels() const { return levels_; }
   /// How each level is computed; valid as long as the plan.
-  const std::vector<PrefilterMethod>& methods() const { return plan_.methods(); }
+  const std::vector<PrefilterMethod>& methods() const { return methods_; }
 
  private:
+  BakeOptions options_;
   std::vector<PrefilterLevel> levels_;
   ChainNotes notes_;
-  bool keep_alpha_;
-  PrefilterPlan plan_;
+  std::optional<PrefilterPlan> plan_;  // of BakeMethod::exact
+  std::vector<PrefilterMethod> methods_;
 };
 
 /// Plans and runs once. Throws as BakePlan does.

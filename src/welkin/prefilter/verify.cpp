@@ -209,10 +209,16 @@ class Verifier {
   }
 
   void integrate(std::vector<LevelVerification>& results) const {
-    const auto integrals = integrals_of_levels(source_, lobes_, options_);
+    using Integrals = std::vector<std::optional<std::vector<double>>>;
+    const Integrals integrals =
+        options_.own_texels ? Integrals(levels_.size()) : integrals_of_levels(source_, lobes_, options_);
     const std::vector<double> magnitudes = integral_of_magnitudes(source_);
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-      if (lobes_[i].is_mirror()) {
+      if (options_.own_texels) {
+        std::vector<double> energy = integral_of_texels(levels_[i]);
+        for (double& each : energy) each /= one_[i];
+        results[i].energy = energy_of(energy, reference_.integral(), magnitudes);
+      } else if (lobes_[i].is_mirror()) {
         if (levels_[i].parameterization.coverage() < source_.parameterization.coverage() - 1e-9) continue;
         results[i].energy = energy_of(integral_of_texels(levels_[i]), reference_.integral(), magnitudes);
       } else if (integrals[i]) {
@@ -326,7 +332,7 @@ std::vector<LevelVerification> verify_prefilter(const Map& source, std::span<con
   Verifier verifier(source, maps, levels, options);
   verifier.integrate(results);
   verifier.compare(results);
-  verifier.heat(results);
+  if (!options.own_texels) verifier.heat(results);
   return results;
 }
 

@@ -24,7 +24,9 @@ struct VerifyOptions {
   int most_hot = 64;
   double hot = 0.5;        ///< share of the highest luminance, 0 … 1
   std::uint64_t seed = 1;  ///< of the random choice
-  Monitor monitor = {};    ///< progress and cancelling
+  /// The levels are not PrefilterPlan's: energy is that of their own texels, and there is no furnace.
+  bool own_texels = false;
+  Monitor monitor = {};  ///< progress and cancelling
 };
 
 /// Texels of a level against brute force in float64; those of a mirror's level, which is the source
