@@ -107,7 +107,9 @@ class ImportanceSampler::State {
         to_world_(transpose(map.orientation)),
         rows_(static_cast<std::uint32_t>(map.charts() * map.height())),
         width_(static_cast<std::uint32_t>(map.width())),
-        texels_(static_cast<double>(map.width()) * map.height()) {
+        texels_(static_cast<double>(map.width()) * map.height()),
+        texel_width_(1.0 / map.width()),
+        texel_height_(1.0 / map.height()) {
     std::vector<float> luminance(static_cast<std::size_t>(rows_) * width_), omega(luminance.size());
     read(map, luminance, omega, part_of(monitor, 0, 0.4));
     patterns_.emplace(frame_, omega, part_of(monitor, 0.4, 0.6));
@@ -115,18 +117,23 @@ class ImportanceSampler::State {
     tabulate(luminance, omega, part_of(monitor, 0.6, 1));
   }
 
-  ImportanceDraw draw(double u1, double u2) const {
-    const Choice choice =
-        cdf_ ? cdf_->choose(limited(u1), limited(u2)) : alias_->choose(limited(u1), limited(u2));
-    const std::uint32_t height = static_cast<std::uint32_t>(frame_.size.height);
+  Choice choose(double u1, double u2) const {
+    return cdf_ ? cdf_->choose(limited(u1), limited(u2)) : alias_->choose(limited(u1), limited(u2));
+  }
+
+  ImportanceDraw place(const Choice& choice) const {
     ImportanceDraw draw;
-    draw.chart = static_cast<int>(choice.row / height);
     draw.x = static_cast<int>(choice.column);
-    draw.y = static_cast<int>(choice.row % height);
+    draw.y = static_cast<int>(choice.row);
+    // No division for the few charts that there are.
+    while (draw.y >= frame_.size.height) {
+      draw.y -= frame_.size.height;
+      ++draw.chart;
+    }
     PlaceInTexel place{inset(choice.s), inset(choice.t), 1};
     if (const TexelPattern* pattern = patterns_->find(choice.row, choice.column))
       place = pattern->place(frame_, draw.chart, draw.x, draw.y, choice.s, choice.t);
-    const double u = (draw.x + place.x) / frame_.size.width, v = (draw.y + place.y) / frame_.size.height;
+    const double u = (draw.x + place.x) * texel_width_, v = (draw.y + place.y) * texel_height_;
     draw.direction = to_world_ * frame_.parameterization.to_sphere(draw.chart, u, v);
     draw.pdf = per_solid_angle(choice.probability * place.density, draw.chart, u, v);
     return draw;
@@ -267,6 +274,7 @@ class ImportanceSampler::State {
   Matrix3 to_world_;
   std::uint32_t rows_, width_;
   double texels_;  ///< of a chart
+  double texel_width_, texel_height_;
   std::optional<TexelPatterns> patterns_;
   std::optional<RowColumnTable> cdf_;
   std::optional<AliasTable> alias_;
@@ -293,7 +301,20 @@ ImportanceSampler::ImportanceSampler(const Map& map, const ImportanceOptions& op
     : state_(std::make_shared<const State>(map, checked(map, options), monitor)) {}
 
 ImportanceDraw ImportanceSampler::draw(double u1, double u2) const {
-  return state_->draw(u1, u2);
+  return state_->place(state_->choose(u1, u2));
+}
+
+void ImportanceSampler::draw(std::span<const double> u1, std::span<const double> u2,
+                             std::span<ImportanceDraw> draws) const {
+  require(u1.size() == u2.size() && u1.size() == draws.size(),
+          "importance sampling: as many draws as pairs of numbers");
+  constexpr std::size_t kBatch = 64;
+  std::array<Choice, kBatch> choices;
+  for (std::size_t from = 0; from < draws.size(); from += kBatch) {
+    const std::size_t count = std::min(kBatch, draws.size() - from);
+    for (std::size_t i = 0; i < count; ++i) choices[i] = state_->choose(u1[from + i], u2[from + i]);
+    for (std::size_t i = 0; i < count; ++i) draws[from + i] = state_->place(choices[i]);
+  }
 }
 double ImportanceSampler::pdf(const Vec3d& direction) const {
   return state_->pdf(direction);

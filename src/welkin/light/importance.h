@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -68,7 +69,7 @@ struct ImportanceDraw {
 /// and outlives the map.
 ///
 /// Never changes after it is made; draws are safe from many threads. Cheap to copy: copies share the tables,
-/// 16 bytes for each texel by `alias`, 10 by `cdf`.
+/// 16 bytes for each texel by `alias`, 12 to 16 by `cdf`.
 class WELKIN_API ImportanceSampler {
  public:
   /// Reads the charts, and for `look_up` bilinear their borders. Throws Error: (bad_value) for luminance that
@@ -81,6 +82,9 @@ class WELKIN_API ImportanceSampler {
   /// A direction from two numbers in [0, 1), independent and uniform, or stratified; others are clamped. In
   /// double, or with at least 40 random bits: their leading bits choose the texel, the rest the place in it.
   ImportanceDraw draw(double u1, double u2) const;
+  /// The same of many pairs of numbers: the same bits, sooner in large maps, for look-ups in the tables
+  /// overlap. In the calling thread. Throws Error (bad_request) when the lengths differ.
+  void draw(std::span<const double> u1, std::span<const double> u2, std::span<ImportanceDraw> draws) const;
 
   /// Probability per solid angle, 1/sr, of drawing a direction of any length > 0 in the world; 0 where the
   /// map shows nothing, and for zero and what isn't finite.

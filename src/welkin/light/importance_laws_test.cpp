@@ -25,6 +25,47 @@ TEST(ImportanceLaws, CdfKeepsStratification) {
   }
 }
 
+TEST(ImportanceLaws, ManyDrawsAreThoseOfOneByOne) {
+  const Map map = random_map("cube", 9);
+  std::vector<double> u1, u2;
+  for (const auto& [a, b] : stratified(13, 2)) {
+    u1.push_back(a);
+    u2.push_back(b);
+  }
+  for (const ImportanceMethod method : kMethods) {
+    const ImportanceSampler sampler(map, {.method = method});
+    std::vector<ImportanceDraw> many(u1.size());
+    sampler.draw(u1, u2, many);
+    for (std::size_t i = 0; i < many.size(); ++i) {
+      const ImportanceDraw one = sampler.draw(u1[i], u2[i]);
+      EXPECT_EQ(many[i].direction.x, one.direction.x);
+      EXPECT_EQ(many[i].pdf, one.pdf);
+      EXPECT_EQ(many[i].chart, one.chart);
+      EXPECT_EQ(many[i].y, one.y);
+    }
+    EXPECT_NE(cases::refusal([&] { sampler.draw(u1, u2, std::span(many).subspan(1)); }), "done");
+  }
+}
+
+/// Buckets of the guide that hold the ends of many values: a row of one light among texels 10⁹ times darker.
+TEST(ImportanceLaws, AnySkewIsDrawnAsItIs) {
+  Map map = cases::make_map("equal-area", 64);
+  cases::render(map, [](const Vec3d&) { return 1; });
+  const int x = 70, y = 20;
+  *map.level.chart(0).at(x, y) = 1e9f;
+  const ImportanceSampler sampler(map);
+  const double before = sampler.marginal_cdf()[y - 1], after = sampler.marginal_cdf()[y];
+  const std::vector<double> row = sampler.conditional_cdf(y);
+  // Aimed at the middle of each texel's part of the row.
+  for (int i = 0; i < map.width(); ++i) {
+    const double from = i == 0 ? 0 : row[static_cast<std::size_t>(i - 1)];
+    const ImportanceDraw draw =
+        sampler.draw((from + row[static_cast<std::size_t>(i)]) / 2, (before + after) / 2);
+    EXPECT_EQ(draw.x, i);
+    EXPECT_EQ(draw.y, y);
+  }
+}
+
 TEST(ImportanceLaws, TablesAreOfTheTexelsProbabilities) {
   const Map map = random_map("cube", 8);
   const int rows = map.charts() * map.height();

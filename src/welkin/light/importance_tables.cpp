@@ -9,7 +9,7 @@ namespace welkin::light {
 Cdf::Cdf(std::uint32_t count, std::uint32_t size)
     : size_(size),
       // A power of two: u · buckets is exact, so the guide can't be off by one.
-      buckets_(std::bit_ceil(std::max(1u, size / 2))),
+      buckets_(std::bit_ceil(size)),
       sums_(static_cast<std::size_t>(count) * (size + 1)),
       guide_(static_cast<std::size_t>(count) * (buckets_ + 1)) {}
 
@@ -36,10 +36,14 @@ Cdf::Found Cdf::find(std::uint32_t k, double u) const {
   const double* sums = sums_of(k);
   const std::uint32_t bucket = static_cast<std::uint32_t>(u * buckets_);
   const std::uint32_t* guide = &guide_[static_cast<std::size_t>(k) * (buckets_ + 1) + bucket];
-  const double* end = std::upper_bound(sums + guide[0] + 1, sums + guide[1] + 1, u);
-  const double from = end[-1], probability = *end - from;
-  return {static_cast<std::uint32_t>(end - sums - 1), std::min((u - from) / probability, kBelowOne),
-          probability};
+  // A bucket holds the end of about one value: two steps without a branch mostly suffice.
+  std::size_t i = guide[0];
+  i += sums[i + 1] <= u ? 1 : 0;
+  i += sums[i + 1] <= u ? 1 : 0;
+  if (sums[i + 1] <= u)
+    i = static_cast<std::size_t>(std::upper_bound(sums + i + 2, sums + guide[1] + 1, u) - sums) - 1;
+  const double from = sums[i], probability = sums[i + 1] - from;
+  return {static_cast<std::uint32_t>(i), std::min((u - from) / probability, kBelowOne), probability};
 }
 
 double Cdf::probability(std::uint32_t k, std::uint32_t index) const {
@@ -91,9 +95,9 @@ AliasTable::AliasTable(std::uint32_t width, std::vector<double> weights)
     own[i] += threshold;
     own[entries_[i].alias] += 1 - threshold;
   }
-  for (Entry& entry : entries_) {
-    entry.own = static_cast<float>(own[static_cast<std::size_t>(&entry - entries_.data())] /
-                                   static_cast<double>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    Entry& entry = entries_[i];
+    entry.own = static_cast<float>(own[i] / static_cast<double>(count));
     entry.others = static_cast<float>(own[entry.alias] / static_cast<double>(count));
   }
 }
@@ -105,10 +109,10 @@ Choice AliasTable::choose(double u1, double u2) const {
   const double rest = std::min(scaled - static_cast<double>(i), kBelowOne);
   const double threshold = static_cast<double>(entry.threshold);
   const bool own = rest < threshold;
-  const std::size_t chosen = own ? i : entry.alias;
+  const std::uint32_t chosen = own ? static_cast<std::uint32_t>(i) : entry.alias;
   const double s = own ? rest / threshold : (rest - threshold) / (1 - threshold);
-  return {static_cast<std::uint32_t>(chosen / width_), static_cast<std::uint32_t>(chosen % width_),
-          std::min(s, kBelowOne), u2, static_cast<double>(own ? entry.own : entry.others)};
+  return {chosen / width_, chosen % width_, std::min(s, kBelowOne), u2,
+          static_cast<double>(own ? entry.own : entry.others)};
 }
 
 }  // namespace welkin::light

@@ -1,11 +1,31 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "welkin/base/large_memory.h"
 
 /// Tables that choose a texel by its probability. Internal to ImportanceSampler. Rows of all charts stand one
 /// under the other.
 namespace welkin::light {
+
+/// Values in huge pages, all bytes 0 at first: draws are at random places, and would miss the TLB in small
+/// ones.
+template <class T>
+class LargeArray {
+ public:
+  explicit LargeArray(std::size_t count)
+      : memory_(count * sizeof(T), LargeMemory::Contents::zero), count_(count) {}
+
+  std::size_t size() const { return count_; }
+  T& operator[](std::size_t i) { return reinterpret_cast<T*>(memory_.data())[i]; }
+  const T& operator[](std::size_t i) const { return reinterpret_cast<const T*>(memory_.data())[i]; }
+
+ private:
+  LargeMemory memory_;
+  std::size_t count_;
+};
 
 /// A texel that was chosen, what is left of the two numbers, each again in [0, 1), and its probability.
 struct Choice {
@@ -42,7 +62,7 @@ class Cdf {
   const double* sums_of(std::uint32_t k) const { return &sums_[static_cast<std::size_t>(k) * (size_ + 1)]; }
 
   std::uint32_t size_, buckets_;
-  std::vector<double> sums_;  ///< size + 1 for each, from 0 to 1
+  LargeArray<double> sums_;  ///< size + 1 for each, from 0 to 1
   std::vector<std::uint32_t>
       guide_;  ///< buckets + 1 for each: the first value that ends beyond the bucket's start
 };
@@ -90,7 +110,7 @@ class AliasTable {
 
  private:
   std::uint32_t width_;
-  std::vector<Entry> entries_;
+  LargeArray<Entry> entries_;
 };
 
 }  // namespace welkin::light
