@@ -86,6 +86,13 @@ const std::map<std::string, std::function<void()>>& lists() {
          for (const auto& each : brdf::engine_tables())
            fmt::print("{:<16} {}\n", each.name, each.description);
        }},
+      {"methods",
+       [] {
+         fmt::print("{:<23} {}\n", "alias", "importance: one look-up in a table for each draw");
+         fmt::print("{:<23} {}\n", "cdf", "importance: row, then column, by inversion; keeps strata");
+         fmt::print("{:<23} {}\n", "exact", "bake: harmonics and near sums, to a tolerance");
+         fmt::print("{:<23} {}\n", "paraboloid-convolution", "bake: two planar filters; approximate");
+       }},
       {"maps", [] {
          for (const auto& name : synth::names()) fmt::print("{:<12} {}\n", name, synth::description(name));
        }}};
@@ -100,9 +107,9 @@ void add_list(CLI::App& app) {
   std::vector<std::string> names;
   for (const auto& [name, print] : lists()) names.push_back(name);
   command
-      ->add_option(
-          "WHAT", *what,
-          "conventions, curves, filters, formats, layouts, lobes, luts, maps, parameterizations, parameters")
+      ->add_option("WHAT", *what,
+                   "conventions, curves, filters, formats, layouts, lobes, luts, maps, methods, "
+                   "parameterizations, parameters")
       ->capture_default_str();
   command->callback([what, names] {
     const auto found = lists().find(*what);

@@ -37,6 +37,16 @@ run importance half.exr half_tables.exr
 checks=$((checks + 1))
 grep -q "shows 50.0 % of the sphere" "$work/messages" || fail "half a map: $(cat "$work/messages")"
 
+{ printf 'PF\n2 1\n-1.0\n'; printf '\000\000\300\177%.0s' 1 2 3; printf '\000\000\200\077%.0s' 1 2 3; } >nan.pfm
+refuses 1 "nan.pfm: .*1 texels have luminance that is NaN or infinite.*--sanitize" importance nan.pfm out.exr --from latlong
+run importance nan.pfm out.exr --from latlong --sanitize
+checks=$((checks + 1))
+((status == 0)) || fail "a sanitized map: $(cat "$work/messages")"
+{ printf 'PF\n2 1\n-1.0\n'; printf '\000\000\200\277%.0s' 1 2 3; printf '\000\000\200\077%.0s' 1 2 3; } >negative.pfm
+run importance negative.pfm out.exr --from latlong
+checks=$((checks + 1))
+grep -q "1 texels have negative luminance" "$work/messages" || fail "a negative texel: $(cat "$work/messages")"
+
 refuses 2 "unknown method 'alais'; did you mean 'alias'\?" importance sky.exr out.exr --method alais
 refuses 2 "out.png: tables are written as .exr or .ktx2" importance sky.exr out.png
 refuses 2 "out.exe: unknown extension" importance sky.exr out.exe

@@ -5,8 +5,8 @@
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
 must synth axes card.exr --size 16
-for what in conventions curves filters formats layouts lobes luts maps parameterizations parameters; do matches . list $what; done
-for command in info convert sample diff synth plot lut list help; do
+for what in conventions curves filters formats layouts lobes luts maps methods parameterizations parameters; do matches . list $what; done
+for command in info convert sample importance diff synth plot lut list help; do
   matches "^Usage: welkin $command" help $command
   matches "^Usage: welkin $command" $command --help
   matches "^  $command " --help
