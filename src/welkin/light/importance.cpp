@@ -11,7 +11,7 @@
 #include "welkin/light/importance_tables.h"
 #include "welkin/light/importance_texel.h"
 #include "welkin/map/texel_points.h"
-#include "welkin/measure/luminance.h"
+#include "welkin/map/luminance.h"
 
 namespace welkin {
 
