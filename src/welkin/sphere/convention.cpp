@@ -29,43 +29,45 @@ std::vector<Convention> make_conventions() {
   const Matrix3 x_reversed = axes(kMinusX, kPlusY, kPlusZ);
   return {
       {"native", "right-handed, +Y up; +Z at the centre of a lat-long, +X a quarter to its left", identity,
-       identity, identity, "docs/conventions.md"},
-      {"openexr", "OpenEXR envmap attribute; as native", identity, identity, identity,
+       identity, identity, identity, "docs/conventions.md"},
+      {"openexr", "OpenEXR envmap attribute; as native", identity, identity, identity, identity,
        "OpenEXR, ImfEnvmap.h, \"Latitude-Longitude Map\""},
-      {"usd", "USD DomeLight; as native", identity, identity, identity,
+      {"usd", "USD DomeLight; as native", identity, identity, identity, identity,
        "OpenUSD, UsdLuxDomeLight, which quotes OpenEXR"},
-      {"mitsuba", "Mitsuba 3 envmap; as native", identity, identity, identity,
+      {"mitsuba", "Mitsuba 3 envmap; as native", identity, identity, identity, identity,
        "Mitsuba 3, src/emitters/envmap.cpp, direction_to_uv"},
       {"godot", "Godot 4 PanoramaSkyMaterial and cube maps; as native", identity, identity, identity,
-       "Godot, servers/rendering/renderer_rd/shaders/environment/sky.glsl, panorama_coords"},
-      {"filament", "Filament and cmgen; as native", identity, identity, identity,
+       identity, "Godot, servers/rendering/renderer_rd/shaders/environment/sky.glsl, panorama_coords"},
+      {"filament", "Filament and cmgen; as native", identity, identity, identity, identity,
        "Filament, Skybox.h and libs/ibl/src/CubemapUtils.cpp, equirectangularToCubemap and mirrorCubemap"},
       {"three.js", "three.js equirectangular and CubeTexture, whose look-up reverses x", centred_on(kPlusX),
-       x_reversed, identity,
+       x_reversed, identity, identity,
        "three.js, ShaderChunk/common.glsl.js, equirectUv; ShaderChunk/envmap_fragment.glsl.js, flipEnvMap; "
        "CubeTextureLoader documentation"},
       {"blender", "Blender environment texture (right-handed, +Z up)", centred_on(kPlusX), identity, identity,
+       axes(kPlusX, kMinusZ, kPlusY),
        "Blender Cycles, kernel/camera/projection.h, direction_to_equirectangular and "
        "direction_to_mirrorball"},
       {"unity", "Unity panoramic skybox and cube maps (left-handed, +Y up, our +X is its −X)",
-       centred_on(kMinusX), x_reversed, identity,
+       centred_on(kMinusX), x_reversed, identity, x_reversed,
        "Unity built-in shaders, Skybox-Panoramic.shader, ToRadialCoords, and Skybox-Cubed.shader; UnityGLTF, "
        "SchemaExtensions.cs, CoordinateSpaceConversionScale"},
       {"unreal", "Unreal long-lat import and cube maps (left-handed, +Z up, our +Z is its +Y)",
-       centred_on(kMinusZ), axes(kPlusX, kPlusZ, kPlusY), identity,
+       centred_on(kMinusZ), axes(kPlusX, kPlusZ, kPlusY), identity, axes(kPlusX, kPlusZ, kPlusY),
        "Unreal Engine, TextureCompressorModule.cpp, LookupLongLat and TransformSideToWorldSpace; GLTFCore, "
        "ConversionUtilities.h, ConvertVec3"},
       {"pbrt",
        "pbrt-v4 equal-area octahedra, and lat-longs for its imgtool (left-handed, +Z up, our +Z is its +Y)",
-       centred_on(kMinusX), identity, identity,
+       centred_on(kMinusX), identity, identity, axes(kPlusX, kPlusZ, kPlusY),
        "pbrt-v4, src/pbrt/cmd/imgtool.cpp, makeequiarea, and src/pbrt/util/math.cpp, "
        "EqualAreaSquareToSphere; "
        "Pharr, Jakob & Humphreys 2023, §3.1.1"},
       {"debevec", "Debevec's light probes: lat-longs and angular maps with −Z at the centre",
-       centred_on(kMinusZ), identity, centred_on(kMinusZ),
+       centred_on(kMinusZ), identity, centred_on(kMinusZ), identity,
        "Debevec, debevec.org/Probes (angular) and gl.ict.usc.edu/Data/HighResProbes (panoramic)"},
       {"left-handed", "a left-handed world, +Y up, our −Z is its +Z; its +Z at the centre of a lat-long",
-       centred_on(kMinusZ), axes(kPlusX, kPlusY, kMinusZ), identity, "docs/conventions.md"},
+       centred_on(kMinusZ), axes(kPlusX, kPlusY, kMinusZ), identity, axes(kPlusX, kPlusY, kMinusZ),
+       "docs/conventions.md"},
   };
 }
 

@@ -28,6 +28,9 @@ struct Convention {
   Matrix3 lookup;
   /// For angular and fisheye pictures (Projection::disc): a rotation, as `latlong`.
   Matrix3 disc;
+  /// To the coordinates of the program's own world, in which its lights and objects lie. A reflection where
+  /// that is left-handed.
+  Matrix3 world;
   /// Where the look-up can be read: file names and functions, or a document.
   std::string source;
 };

@@ -40,6 +40,15 @@ TEST(Convention, NativeIsIdentity) {
   }
 }
 
+TEST(Convention, WorldsAreThoseOfThePrograms) {
+  for (const Program& program : kPrograms) {
+    SCOPED_TRACE(program.name);
+    const Matrix3& world = convention_from_name(program.name).world;
+    EXPECT_EQ(world * transpose(world), Matrix3{});
+    for (const Vec3d& d : directions(20)) EXPECT_EQ(length(world * d - program.from_native(d)), 0);
+  }
+}
+
 /// A lat-long formula and its preset agree everywhere; 1e-12 is the rounding of acos and atan2 away from
 /// poles.
 TEST(Convention, LatLongsAgreeWithTheProgramsFormulas) {
