@@ -11,9 +11,11 @@
 #include "bake_report.h"
 #include "bake_source.h"
 #include "command.h"
+#include "lights_report.h"
 #include "progress.h"
 #include "sanitize_flags.h"
 #include "welkin/base/number_text.h"
+#include "welkin/light/extract.h"
 #include "welkin/map/adjust.h"
 #include "welkin/prefilter/source_faults.h"
 #include "welkin/sphere/convention.h"
@@ -31,7 +33,7 @@ struct Bake {
   SanitizeFlags repair;
   FrameFlags frames;
   std::string request;  ///< request_of
-  bool json = false;
+  bool json = false, extract_sun = false;
 
   void run();
   PrefilterOptions parse_options() const;
@@ -99,6 +101,8 @@ void Bake::run() {
   if (!numbered) frames.check_unused();
   if (numbered && !verify.empty())
     throw UsageError("--verify: is for one map; of frames, --held-out measures the error of interpolating");
+  if (numbered && extract_sun)
+    throw UsageError("--extract-sun: is for one map; a sun of its own in every frame would jump between them");
   const WriteMapOptions write_options = parse_write();
   const PrefilterOptions prefilter = parse_options();
   Matrix3 turn;
@@ -122,12 +126,17 @@ void Bake::run() {
     return bake_numbered(frames, {in, out, made, read, repair, repairs, write_options, turn,
                                   std::exp2(exposure), request, json});
   }
-  BakeReport report{in, out, &made, bake_notes(options), {}, {}};
+  BakeReport report{in, out, &made, bake_notes(options), {}, {}, {}};
   Clock clock;
   Map source = read_bake_source(in, read, repair, repairs);
   turn_world(source, turn);
   if (!options.keep_alpha && source.channel_names == default_channel_names(4)) source = without_alpha(source);
   fit_channels_to(source, out, write_options);
+  if (extract_sun) {
+    Extraction extraction = extract_lights(source, {.most = 1});
+    source = std::move(extraction.residual);
+    report.sun = brightened(std::move(extraction.found), std::exp2(exposure));
+  }
   const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
   if (!verify.empty()) check_verifiable(shape);
   report.read_seconds = clock.lap();
@@ -211,6 +220,9 @@ void add_bake(CLI::App& app) {
       "Rotate the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
   command->add_option("--convention,--to-convention", bake->convention,
                       "World of the output: three.js, blender… (`welkin list conventions`)");
+  command->add_flag("--extract-sun", bake->extract_sun,
+                    "Take the strongest light out first, and tell it, to be a light of its own that casts "
+                    "shadows; see `lights`");
   command->add_option("--exposure", bake->exposure, "Brighten by this many stops")->check(finite_number());
   bake->repair.add(*command);
   bake->frames.add(*command);

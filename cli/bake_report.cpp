@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lights_report.h"
+
 namespace welkin::cli {
 namespace {
 
@@ -94,6 +96,10 @@ void print_json_text(const ordered_json& report) {
 void BakeReport::print() const {
   const BakeLevels& m = *made;
   const std::size_t count = m.levels.size();
+  if (sun) {
+    if (sun->lights.empty()) fmt::print("no sun: nothing stands out\n");
+    print_lights(*sun);
+  }
   fmt::print("{}: {}, {} of {}, {} {}\n", printable(out), printable(notes.lobe), m.shape->text(),
              size_text(m.levels.front().size), count, count == 1 ? "level" : "levels");
   fmt::print(
@@ -122,6 +128,7 @@ void BakeReport::print() const {
 
 void BakeReport::print_json() const {
   ordered_json report = describe_bake(in, out, *made, notes);
+  if (sun) report["sun"] = sun->lights.empty() ? ordered_json(nullptr) : cli::json_of(*sun, 0);
   ordered_json levels = describe_levels(*made, notes, methods);
   for (std::size_t i = 0; i < verification.size(); ++i) levels[i]["verification"] = json_of(verification[i]);
   report["levels"] = std::move(levels);
@@ -132,6 +139,7 @@ void BakeReport::print_json() const {
 }
 
 void BakeReport::report_misses() const {
+  if (sun) warn_of_lights(in, *sun);
   if (made->options.method != BakeMethod::exact) return;
   for (std::size_t i = 0; i < verification.size(); ++i) {
     const ReferenceErrors& reference = verification[i].reference;

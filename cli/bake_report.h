@@ -1,10 +1,12 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bake_levels.h"
+#include "welkin/light/light_set.h"
 #include "welkin/prefilter/verify.h"
 
 namespace welkin::cli {
@@ -25,6 +27,7 @@ struct BakeReport {
   ChainNotes notes;
   std::vector<PrefilterMethod> methods;
   std::vector<LevelVerification> verification;  ///< empty, or one for each level
+  std::optional<LightSet> sun;                  ///< where it was to be taken out: it, or none
   double read_seconds = 0, plan_seconds = 0, compute_seconds = 0, verify_seconds = 0, write_seconds = 0;
 
   void print() const;
