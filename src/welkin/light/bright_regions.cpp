@@ -82,7 +82,9 @@ class RegionFinder {
       // Peaks are numbered as they are found, so the smallest number is the highest.
       std::sort(tops.begin(), tops.end());
       for (std::size_t i = 1; i < tops.size(); ++i) {
-        if (value > kSaddle * peaks_.luminance(tops[i])) peaks_.join(tops[i], tops.front());
+        const float lower = peaks_.luminance(tops[i]), higher = peaks_.luminance(tops.front());
+        if (value > (lower < kMinor * higher ? kMinorSaddle : kSaddle) * lower)
+          peaks_.join(tops[i], tops.front());
       }
       owner(texel) = nearest_top(texel, tops.front());
     }

@@ -14,6 +14,8 @@ inline constexpr float kFaintest = 0.01f;
 
 /// Luminance between two peaks that are two lights, as a part of the lower's.
 inline constexpr float kSaddle = 0.5f;
+/// The same where the lower is below kMinor of the higher, as the bright edge of a lamp's shade is.
+inline constexpr float kMinor = 0.3f, kMinorSaddle = 0.2f;
 
 /// Texels that are added all around.
 inline constexpr int kRimTexels = 2;

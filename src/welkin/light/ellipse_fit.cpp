@@ -165,10 +165,11 @@ EllipseFit::Result EllipseFit::disc_of(const Result& near, double radius) const 
 }
 
 std::optional<Ellipse> EllipseFit::largest_alike(const Result& disc) const {
-  if (disc.ellipse.a > 1.5 * side_) return std::nullopt;
+  const double widest = side_ * std::max(1.0, *std::max_element(widths_.begin(), widths_.end()));
+  if (disc.ellipse.a > 1.5 * widest) return std::nullopt;
   const double limit = disc.misfit + kAlike;
   if (disc_of(disc, 0.9 * disc.ellipse.a).misfit > limit) return std::nullopt;
-  double fits = disc.ellipse.a, misses = 3 * side_;
+  double fits = disc.ellipse.a, misses = 3 * widest;
   for (int step = 0; step < 12; ++step) {
     const double middle = (fits + misses) / 2;
     (disc_of(disc, middle).misfit <= limit ? fits : misses) = middle;

@@ -148,7 +148,9 @@ class FormFinder {
       return form;
     }
     EllipseFit::Result best = disc;
-    if (moments.a > kElongated * moments.b && texels_.size() > 8) {
+    // Few texels that are nearly a disc's are one's, whose rim was sampled coarsely.
+    const bool round = moments.a < 2 * side_ && disc.misfit < kRound;
+    if (moments.a > kElongated * moments.b && texels_.size() > 8 && !round) {
       Ellipse start = moments;
       start.a = std::max(start.a, 0.6 * side_);
       start.b = std::max(start.b, 0.4 * side_);
@@ -166,6 +168,8 @@ class FormFinder {
 
   /// Σ (texel − fit)² / Σ texel² up to which a fit is believed.
   static constexpr double kMisfit = 0.05;
+  /// Up to which a small light is a disc.
+  static constexpr double kRound = 0.01;
 
   const Map& map_;
   const TexelGrid grid_;

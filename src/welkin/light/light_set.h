@@ -40,7 +40,8 @@ struct ExtractedLight {
   /// region.
   std::array<double, 2> half_axes{0, 0};
   Vec3d axis{1, 0, 0};  ///< the longer axis, in the world: of unit length, perpendicular to the direction
-  /// Radiance of its brightest texel, surroundings included, one value for each of LightSet::channels.
+  /// Radiance of its brightest texel, surroundings included, one value for each of LightSet::channels; of a
+  /// region the mean.
   std::vector<double> peak;
   std::size_t texels = 0;       ///< that hold it
   std::size_t flat_texels = 0;  ///< of these, that have exactly the largest value of a channel: over 3, it

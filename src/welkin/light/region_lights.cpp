@@ -224,17 +224,17 @@ class RegionCutter {
   std::vector<Region> regions_;
 };
 
-/// Of every region, each channel's ∫ L dω, from the texels themselves.
+/// Of every region, each channel's ∫ L dω and how many texels it has, from the texels themselves.
 std::vector<double> energies_of(const Map& map, const MapScan& scan, const RegionCells& cells,
                                 const std::vector<std::uint32_t>& region_of, std::size_t regions) {
-  const std::size_t channels = static_cast<std::size_t>(map.channels());
+  const std::size_t channels = static_cast<std::size_t>(map.channels()), stride = channels + 1;
   const TexelGrid grid(map);
   const RowBands bands(std::min(map.charts() * map.height(), 8));
   std::vector<std::vector<double>> parts(static_cast<std::size_t>(bands.count));
   const int rows = map.charts() * map.height();
   parallel_for(bands.count, [&](int band) {
     std::vector<double>& sums = parts[static_cast<std::size_t>(band)];
-    sums.resize(regions * channels);
+    sums.resize(regions * stride);
     const auto first = [&](int i) { return static_cast<int>(std::int64_t{rows} * i / bands.count); };
     for (int row = first(band); row < first(band + 1); ++row) {
       const int chart = row / map.height(), y = row % map.height();
@@ -243,12 +243,13 @@ std::vector<double> energies_of(const Map& map, const MapScan& scan, const Regio
       for (int x = 0; x < map.width(); ++x, texel += map.channels()) {
         const double omega = scan.solid_angle(grid.number(chart, x, y));
         if (!(omega > 0)) continue;
-        double* sum = sums.data() + region_of[cell + static_cast<std::size_t>(x / cells.side())] * channels;
+        double* sum = sums.data() + region_of[cell + static_cast<std::size_t>(x / cells.side())] * stride;
         for (std::size_t c = 0; c < channels; ++c) sum[c] += omega * static_cast<double>(texel[c]);
+        sum[channels] += 1;
       }
     }
   });
-  std::vector<double> all(regions * channels);
+  std::vector<double> all(regions * stride);
   for (const auto& part : parts) {
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += part[i];
   }
@@ -283,7 +284,7 @@ LightSet region_lights(const Map& map, const RegionOptions& options) {
   LightSet set;
   for (const int c : channels) set.channels.push_back(map.channel_names[static_cast<std::size_t>(c)]);
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    const double* energy = energies.data() + r * static_cast<std::size_t>(map.channels());
+    const double* energy = energies.data() + r * (static_cast<std::size_t>(map.channels()) + 1);
     ExtractedLight light;
     light.shape = LightShape::region;
     light.luminance = luminance.of_sums(energy);
@@ -293,7 +294,7 @@ LightSet region_lights(const Map& map, const RegionOptions& options) {
     light.direction = aimed ? transpose(map.orientation) * normalize(moment) : Vec3d{0, 1, 0};
     light.axis = normalize(
         cross(light.direction, std::fabs(light.direction.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1}));
-    light.texels = regions[r].to - regions[r].from;
+    light.texels = static_cast<std::size_t>(energy[map.channels()]);
     bool any = false;
     for (const int c : channels) {
       light.irradiance.push_back(energy[c]);
