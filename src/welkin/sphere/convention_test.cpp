@@ -141,7 +141,7 @@ TEST(Convention, DebevecsAngularMapLooksAlongMinusZ) {
 /// are parallels around +Y at even steps of longitude, from the left of +Z to its right, the other shows +Z
 /// in its middle and −X right of it.
 TEST(Convention, EveryPanoramaAndDiscIsKnownAsOne) {
-  const Convention probe{"", "", turned(1), turned(2), turned(3), ""};
+  const Convention probe{"", "", turned(1), turned(2), turned(3), {}, ""};
   for (const std::string& name : sphere::parameterization_names()) {
     const auto p = AnyParameterization::make(name);
     if (p.charts() != 1 || name == "half-cube") continue;
