@@ -42,6 +42,7 @@ void add_importance(CLI::App& app);
 void add_diff(CLI::App& app);
 void add_lights(CLI::App& app);
 void add_synth(CLI::App& app);
+void add_sh(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_lut(CLI::App& app);
 void add_list(CLI::App& app);

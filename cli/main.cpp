@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   cli::add_diff(app);
   cli::add_lights(app);
   cli::add_synth(app);
+  cli::add_sh(app);
   cli::add_plot(app);
   cli::add_lut(app);
   cli::add_list(app);

@@ -22,6 +22,14 @@
 #include "welkin/filter/resample.h"
 #include "welkin/filter/resample_reference.h"
 #include "welkin/filter/sampler.h"
+#include "welkin/harmonics/bases.h"
+#include "welkin/harmonics/coefficients_file.h"
+#include "welkin/harmonics/dering.h"
+#include "welkin/harmonics/error_of.h"
+#include "welkin/harmonics/extrema.h"
+#include "welkin/harmonics/harmonics.h"
+#include "welkin/harmonics/project.h"
+#include "welkin/harmonics/zonal.h"
 #include "welkin/image/image.h"
 #include "welkin/image/pixels.h"
 #include "welkin/io/byte_sink.h"
@@ -85,6 +93,8 @@
 namespace welkin {}
 /// BRDFs as functions of angles, and their integrals.
 namespace welkin::brdf {}
+/// Light as spherical harmonics.
+namespace welkin::harmonics {}
 /// Pictures ↔ files.
 namespace welkin::io {}
 /// Rotationally symmetric lobes, by which maps are pre-filtered.
