@@ -16,7 +16,7 @@ namespace {
 using namespace welkin::harmonics;
 
 /// Degrees that an error is measured against, at least and at most.
-constexpr int kLeastReference = 48, kMostReference = 192;
+constexpr int kLeastReference = 48, kMostReference = kMaxDegree;
 
 struct Sh {
   std::string in, of, window = "none", deringing = "none", rotate;
@@ -118,7 +118,7 @@ void Sh::run() {
     found = report.deringing->harmonics;
   }
   if (map) {
-    const int high = std::clamp(2 * degree + 16, kLeastReference, kMostReference);
+    const int high = std::max(degree, std::clamp(2 * degree + 16, kLeastReference, kMostReference));
     report.error = error_of(found, reference_of(*map, whole, high, progress_monitor("sh")), factors(high));
     end_progress();
   }

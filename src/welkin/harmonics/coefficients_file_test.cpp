@@ -102,7 +102,7 @@ TEST(CoefficientsFile, SaysWhatIsWrong) {
       {R"({"coefficients": [[1],[2]]})", ErrorKind::mismatch, "2 coefficients"},
       {R"({"order": 2, "coefficients": [[1]]})", ErrorKind::mismatch, "order 2 has 9"},
       {R"({"order": -1, "coefficients": [[1]]})", ErrorKind::damaged, "order"},
-      {R"({"order": 1e9, "coefficients": [[1]]})", ErrorKind::too_large, "over 512"},
+      {R"({"order": 1e9, "coefficients": [[1]]})", ErrorKind::too_large, "over 96"},
       {R"({"basis": "unity", "coefficients": [[1]]})", ErrorKind::mismatch, "unity has 9"},
       {R"({"basis": "unitie", "coefficients": [[1]]})", ErrorKind::bad_request, "unity"},
       {R"({"convention": "mars", "coefficients": [[1]]})", ErrorKind::bad_request, "mars"},

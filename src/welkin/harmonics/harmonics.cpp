@@ -27,7 +27,7 @@ Recurrence::Recurrence(int max_degree) : degree(max_degree) {
 }
 
 void evaluate_functions(int degree, const Vec3d& direction, std::span<double> out) {
-  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 512");
+  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 96");
   require(out.size() == static_cast<std::size_t>(count_of(degree)),
           "there is one value for each spherical harmonic");
   const Recurrence r(degree);
@@ -51,7 +51,7 @@ void evaluate_functions(int degree, const Vec3d& direction, std::span<double> ou
 }
 
 SphericalHarmonics::SphericalHarmonics(int degree, int channels) : degree_(degree), channels_(channels) {
-  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 512");
+  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 96");
   require(channels >= 1 && channels <= kMaxChannels, "there are 1 to 64 channels");
   channel_names = default_channel_names(channels);
   values_.resize(static_cast<std::size_t>(count()) * static_cast<std::size_t>(channels));

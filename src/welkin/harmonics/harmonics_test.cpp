@@ -80,7 +80,7 @@ TEST(HarmonicFunctions, AddUpToTheSameSquareEverywhere) {
   for (int i = 0; i < 4; ++i) directions.push_back(random_direction(random));
   for (const Vec3d& d : directions) {
     evaluate_functions(kMaxDegree, d, values);
-    for (const int l : {0, 1, 7, 64, 200, kMaxDegree}) {
+    for (const int l : {0, 1, 7, 64, kMaxDegree}) {
       double sum = 0;
       for (int m = -l; m <= l; ++m)
         sum += values[static_cast<std::size_t>(index_of(l, m))] *
@@ -117,7 +117,7 @@ TEST(SphericalHarmonics, TurnedAreTheFunctionAlongDirectionsTurnedBack) {
          {turn, turn * mirror, mirror, swap, rotation_from_yaw_pitch_roll(0, 90, 0)}) {
       const SphericalHarmonics g = rotated(f, rotation);
       EXPECT_NEAR(g.norm(), f.norm(), 1e-12 * f.norm());
-      EXPECT_LT(cases::relative_error(rotated(g, transpose(rotation)), f), 1e-12);
+      EXPECT_LT(cases::relative_error(rotated(g, transpose(rotation)), f), 2e-12);
       double expected[2], found[2];
       for (int i = 0; i < 20; ++i) {
         const Vec3d d = random_direction(random);
@@ -148,6 +148,13 @@ TEST(SphericalHarmonics, TurnByEachCoefficientExactly) {
   const SphericalHarmonics g = rotated(f, rotation);
   for (std::size_t k = 0; k < functions.size(); ++k)
     EXPECT_NEAR(g.values()[k], expected.values()[k], 1e-12 * f.norm());
+}
+
+TEST(SphericalHarmonics, TurnUpToTheLargestDegree) {
+  std::mt19937 random(7);
+  const SphericalHarmonics f = random_harmonics(kMaxDegree, 1, random);
+  const Matrix3 swap{{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}};
+  EXPECT_LT(cases::relative_error(rotated(rotated(f, swap), transpose(swap)), f), 2e-9);
 }
 
 TEST(SphericalHarmonics, AddWithTheLargerDegree) {

@@ -111,7 +111,7 @@ SphericalHarmonics corrected(const TexelHarmonics& texels, const SphericalHarmon
 
 SphericalHarmonics project(const Map& map, int degree, const Monitor& monitor) {
   map.check();
-  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 512");
+  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 96");
   const std::vector<int> channels = radiance_channels(map);
   const auto texels = make_texel_harmonics(map, degree);
   const SphericalHarmonics all = texels->analyse(map, monitor);

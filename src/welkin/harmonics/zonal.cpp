@@ -12,7 +12,7 @@
 namespace welkin::harmonics {
 
 std::vector<double> irradiance_factors(int degree) {
-  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 512");
+  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 96");
   std::vector<double> factors(static_cast<std::size_t>(degree) + 1);
   factors[0] = kPi;
   if (degree > 0) factors[1] = 2 * kPi / 3;
@@ -24,7 +24,7 @@ std::vector<double> irradiance_factors(int degree) {
 }
 
 std::vector<double> lobe_factors(const lobe::AnyLobe& lobe, int degree) {
-  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 512");
+  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 96");
   return lobe::zonal_coefficients(lobe, degree);
 }
 
@@ -49,7 +49,7 @@ Window window_from_name(std::string_view name) {
 }
 
 std::vector<double> window_factors(Window window, int degree) {
-  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 512");
+  require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 96");
   std::vector<double> factors;
   for (int l = 0; l <= degree; ++l) {
     const double angle = kPi * l / (degree + 1);
