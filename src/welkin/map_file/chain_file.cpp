@@ -13,10 +13,8 @@ namespace welkin {
 namespace fs = std::filesystem;
 using namespace map_file;
 
-namespace {
-
-void check_levels(const Destination& destination, const MapShape& shape, ChartSize finest, int levels,
-                  const WriteMapOptions& options) {
+void map_file::check_levels(const Destination& destination, const MapShape& shape, ChartSize finest,
+                            int levels, const WriteMapOptions& options) {
   if (levels == 1) return;
   const auto refuse = [&](const std::string& cause) {
     throw Error(ErrorKind::unsupported, destination.path.string(), cause);
@@ -49,7 +47,7 @@ void check_levels(const Destination& destination, const MapShape& shape, ChartSi
   }
 }
 
-void check_chain_members(const Chain& chain) {
+void map_file::check_chain_members(const Chain& chain) {
   require(!chain.levels.empty(), "a chain to write has no levels");
   const Map& finest = chain.levels.front();
   for (std::size_t k = 0; k < chain.levels.size(); ++k) {
@@ -64,6 +62,8 @@ void check_chain_members(const Chain& chain) {
                   level + "has other channels, or another orientation or parameterization, than level 0");
   }
 }
+
+namespace {
 
 io::WriteReport write_to(const Destination& destination, const Chain& chain, const Layout& layout,
                          const WriteMapOptions& options) {

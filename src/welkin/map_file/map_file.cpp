@@ -96,6 +96,12 @@ void MapReader::set_level(int level) {
   inspect_with(std::move(changed));
 }
 
+void MapReader::set_part(std::size_t part) {
+  ReadMapOptions changed = options_;
+  changed.part = part;
+  inspect_with(std::move(changed));
+}
+
 namespace {
 
 /// Whether a file leaves it to guesses how the faces of its cube lie.

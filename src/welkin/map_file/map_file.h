@@ -107,6 +107,8 @@ class WELKIN_API MapReader {
   void set_orientation(const Matrix3& orientation);
   /// Changes ReadMapOptions::level.
   void set_level(int level);
+  /// Changes ReadMapOptions::part.
+  void set_part(std::size_t part);
   /// Reads a cube whose file doesn't say how its faces lie, and adds a warning where they don't join as they
   /// are read now. Changes nothing else.
   void check_faces();

@@ -128,8 +128,16 @@ struct WrittenLevel {
         rows_at_once(at_once) {}
 };
 
-/// Writes maps as the levels of one file, as check_chain lets them be.
+/// Writes maps as the levels of one file, as check_chain lets them be; of `sets` chains one after the other,
+/// in one file, as layers or parts.
 io::WriteReport write_levels(const Destination& destination, std::span<const WrittenLevel> levels,
-                             const Layout& layout, const WriteMapOptions& options);
+                             const Layout& layout, const WriteMapOptions& options, int sets = 1);
+
+/// Throws as check_chain does, for a destination of any kind.
+void check_levels(const Destination& destination, const MapShape& shape, ChartSize finest, int levels,
+                  const WriteMapOptions& options);
+
+/// Throws as write_chain does where a chain's members don't belong together.
+void check_chain_members(const Chain& chain);
 
 }  // namespace welkin::map_file

@@ -160,8 +160,9 @@ std::vector<fs::path> files_of(const fs::path& path, const sphere::AnyParameteri
 }
 
 io::WriteReport map_file::write_levels(const Destination& destination, std::span<const WrittenLevel> levels,
-                                       const Layout& layout, const WriteMapOptions& options) {
+                                       const Layout& layout, const WriteMapOptions& options, int sets) {
   const WrittenLevel& finest = levels.front();
+  const std::size_t of_set = levels.size() / static_cast<std::size_t>(sets);
   const auto& p = finest.frame.parameterization;
   Layout placed = layout_for(layout, p, finest.frame.orientation);
   if (!options.faces.empty()) placed = with_faces(placed, p, options.faces);
@@ -183,19 +184,23 @@ io::WriteReport map_file::write_levels(const Destination& destination, std::span
   // Only faces that a look-up by direction is meant for make a cube texture.
   const bool texture = destination.format.texture, cube = p.traits().cube_texture;
   std::vector<io::WritePart> parts;
-  for (std::size_t level = 0; level < levels.size(); ++level) {
-    const WrittenLevel& map = levels[level];
+  for (std::size_t each = 0; each < levels.size(); ++each) {
+    const WrittenLevel& map = levels[each];
+    const int level = static_cast<int>(each % of_set), set = static_cast<int>(each / of_set);
+    const std::string prefix = sets > 1 ? "view" + std::to_string(set) : "";
     if (placed.kind == LayoutKind::picture) {
       parts.push_back(pictures.of_all(map));
-      parts.back().level = static_cast<int>(level);
+      parts.back().name = texture ? "" : prefix;
+      parts.back().level = level;
+      parts.back().layer = texture ? set : 0;
       continue;
     }
     for (std::size_t i = 0; i < placed.cells.size(); ++i) {
       const int index = static_cast<int>(i);
       io::WritePart& part = parts.emplace_back(pictures.of_cell(map, placed.cells[i]));
-      part.name = texture ? "" : names[i];
-      part.level = static_cast<int>(level);
-      part.layer = texture && !cube ? index : 0;
+      part.name = texture ? "" : prefix.empty() ? names[i] : prefix + "." + names[i];
+      part.level = level;
+      part.layer = !texture ? 0 : cube ? set : set * static_cast<int>(placed.cells.size()) + index;
       part.face = texture && cube ? index : 0;
     }
   }
