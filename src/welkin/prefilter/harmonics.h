@@ -47,7 +47,7 @@ struct HarmonicLevel {
   std::vector<float> phases;  ///< see phases()
   lobe::AnyLobe lobe;
   bool all = false;  ///< harmonics of all points, the bright ones too: a far part, or a smooth lobe
-  std::optional<SampledLobe> sampled;  ///< of a widened lobe
+  std::optional<SampledLobe> sampled;  ///< of a table, as a widened lobe is
   double scale;                        ///< of a weight, so that the lobe's integral is 1
 };
 

@@ -97,7 +97,8 @@ void add_mirror(PrefilterPlan::Tables& t, std::size_t level) {
 void add_harmonic(PrefilterPlan::Tables& t, std::size_t level, const WidenedLobe& lobe) {
   HarmonicLevel& harmonic =
       t.harmonic.emplace_back(lobe, lobe.zonal, static_cast<int>(level), t.analysis->points.width);
-  if (lobe.sigma > 0) harmonic.sampled.emplace(lobe.lobe);
+  // Tables are slow to look up.
+  if (lobe.lobe.name() == "table") harmonic.sampled.emplace(lobe.lobe);
   t.methods.push_back({"harmonics", lobe.degree(), harmonic.grid, lobe.lobe, lobe.sigma});
 }
 

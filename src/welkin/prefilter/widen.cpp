@@ -44,42 +44,9 @@ std::vector<double> series(const std::vector<double>& zonal, const std::vector<d
   return sums;
 }
 
-}  // namespace
-
-int degree_of(const std::vector<double>& zonal, double tolerance) {
-  double total = 0;
-  for (std::size_t l = 0; l < zonal.size(); ++l)
-    total += (2 * static_cast<double>(l) + 1) * zonal[l] * zonal[l];
-  double rest = 0;
-  for (std::size_t l = zonal.size(); l-- > 1;) {
-    rest += (2 * static_cast<double>(l) + 1) * zonal[l] * zonal[l];
-    if (rest > tolerance * tolerance * total) return static_cast<int>(l);
-  }
-  return 1;
-}
-
-WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
-  const int finest = std::clamp(static_cast<int>(kPi / texel), 1, kMaxDegree / 4);
-  const int max_degree = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMaxDegree);
-  int known = std::min(max_degree, 4 * finest + 192);
-  std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
-  // A lobe with a step or a kink falls off slowly: degrees up to where it is negligible, or up to a limit of
-  // cost.
-  while (known < 768 && degree_of(zonal, tolerance) > known * 9 / 10) {
-    known *= 2;
-    zonal = lobe::zonal_coefficients(lobe, known);
-  }
-  if (static_cast<std::size_t>(finest) >= zonal.size() ||
-      std::fabs(zonal[static_cast<std::size_t>(finest)]) <= std::exp(-kDecay)) {
-    const int needed = degree_of(zonal, tolerance);
-    const int degree = std::max(needed, std::min(kCheapDegree, degree_of(zonal, tolerance / 20)));
-    // Float's own rounding is about 1e-7 of the light.
-    const bool smooth = degree_of(zonal, 1e-7) <= kCheapDegree;
-    zonal.resize(static_cast<std::size_t>(smooth ? degree_of(zonal, 1e-7) : degree) + 1);
-    return {lobe, std::move(zonal), 0, smooth};
-  }
-  const double square = 2 * (kDecay + std::log(std::fabs(zonal[static_cast<std::size_t>(finest)]))) /
-                        (static_cast<double>(finest) * (finest + 1));
+/// The lobe blurred by a Gaussian of variance `square` about its axis. `zonal`: its coefficients, up to where
+/// the Gaussian's are negligible.
+WidenedLobe blurred(const lobe::AnyLobe& lobe, std::vector<double> zonal, double square, double tolerance) {
   for (std::size_t l = 0; l < zonal.size(); ++l) {
     zonal[l] *= std::exp(-0.5 * square * static_cast<double>(l) * (static_cast<double>(l) + 1));
   }
@@ -121,6 +88,69 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   return {
       lobe::AnyLobe::from_table(lobe.spec() + " widened by " + number_text(sigma) + " rad", degrees, values),
       std::move(zonal), sigma};
+}
+
+}  // namespace
+
+int degree_of(const std::vector<double>& zonal, double tolerance) {
+  double total = 0;
+  for (std::size_t l = 0; l < zonal.size(); ++l)
+    total += (2 * static_cast<double>(l) + 1) * zonal[l] * zonal[l];
+  double rest = 0;
+  for (std::size_t l = zonal.size(); l-- > 1;) {
+    rest += (2 * static_cast<double>(l) + 1) * zonal[l] * zonal[l];
+    if (rest > tolerance * tolerance * total) return static_cast<int>(l);
+  }
+  return 1;
+}
+
+WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
+  const int finest = std::clamp(static_cast<int>(kPi / texel), 1, kMaxDegree / 4);
+  const int max_degree = std::clamp(static_cast<int>(24 / lobe.width()), 192, kMaxDegree);
+  int known = std::min(max_degree, 4 * finest + 192);
+  std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
+  // A lobe with a step or a kink falls off slowly: degrees up to where it is negligible, or up to a limit of
+  // cost.
+  while (known < 768 && degree_of(zonal, tolerance) > known * 9 / 10) {
+    known *= 2;
+    zonal = lobe::zonal_coefficients(lobe, known);
+  }
+  if (static_cast<std::size_t>(finest) >= zonal.size() ||
+      std::fabs(zonal[static_cast<std::size_t>(finest)]) <= std::exp(-kDecay)) {
+    const int needed = degree_of(zonal, tolerance);
+    const int degree = std::max(needed, std::min(kCheapDegree, degree_of(zonal, tolerance / 20)));
+    // Float's own rounding is about 1e-7 of the light.
+    const bool smooth = degree_of(zonal, 1e-7) <= kCheapDegree;
+    zonal.resize(static_cast<std::size_t>(smooth ? degree_of(zonal, 1e-7) : degree) + 1);
+    return {lobe, std::move(zonal), 0, smooth};
+  }
+  const double square = 2 * (kDecay + std::log(std::fabs(zonal[static_cast<std::size_t>(finest)]))) /
+                        (static_cast<double>(finest) * (finest + 1));
+  return blurred(lobe, std::move(zonal), square, tolerance);
+}
+
+lobe::AnyLobe without_finer_than(const lobe::AnyLobe& lobe, double texel, double tolerance) {
+  if (lobe.is_mirror()) return lobe;
+  const int most = std::clamp(static_cast<int>(1.5 * kPi / texel), kCheapDegree, kMaxDegree / 8);
+  const int known = 4 * most;
+  std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
+  const auto degree_with = [&](double square) {
+    std::vector<double> blurred_zonal = zonal;
+    for (std::size_t l = 0; l < zonal.size(); ++l) {
+      const double n = static_cast<double>(l);
+      blurred_zonal[l] *= std::exp(-0.5 * square * n * (n + 1));
+    }
+    return degree_of(blurred_zonal, tolerance);
+  };
+  if (degree_of(zonal, tolerance) <= most) return lobe;
+  // The least Gaussian that suffices; at the last degree known even the smallest leaves e^−20.
+  double low = 40.0 / (static_cast<double>(known) * known), high = 40.0 / (static_cast<double>(most) * most);
+  if (degree_with(low) <= most) high = low;
+  while (high > 1.02 * low) {
+    const double middle = std::sqrt(low * high);
+    (degree_with(middle) <= most ? high : low) = middle;
+  }
+  return blurred(lobe, std::move(zonal), high, tolerance).lobe;
 }
 
 }  // namespace welkin::prefilter
