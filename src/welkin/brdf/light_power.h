@@ -11,11 +11,11 @@
 /// Which errors count: those that light of surroundings would show. Internal to brdf.
 namespace welkin::brdf {
 
-/// The power of light at degree l ≥ 1, for each coefficient: as l^−2.5. Photographs of surroundings lie
-/// between l^−2 (of plane pictures) and l^−3 (of few large areas); bench/view_lobe_errors.cpp has the
-/// outcome.
+/// The power of light at degree l ≥ 1, for each coefficient: as l^−2, which is that of plane pictures. Few
+/// small lights are nearer to l^−1 or less, large areas to l^−3; an axis or a sum that is best for l^−2 is
+/// within a tenth of the best for either.
 inline double light_power(int degree) {
-  return std::pow(degree + 0.5, -2.5);
+  return 1 / ((degree + 0.5) * (degree + 0.5));
 }
 
 /// A lobe's points on one side of the plane of incidence, with the weights of both, normalised to 1; those in

@@ -21,8 +21,9 @@ struct ViewBakeOptions {
   std::vector<double> view_cosines = default_view_cosines(16);
   /// About which axis a lobe is averaged.
   brdf::LobeAxis axis = brdf::LobeAxis::fitted;
-  /// Size, levels, curve, target, and how to filter; `lobe` isn't used, and scale must be average.
-  BakeOptions bake = {};
+  /// Size, levels, curve, target, and how to filter; `lobe` isn't used, and scale must be average. The
+  /// default tolerance is 0.5 %: symmetric lobes are several per cent off in any case.
+  BakeOptions bake = {.prefilter = {.tolerance = 5e-3}};
 };
 
 /// All of a stack that depends on sizes and the BRDF alone, kept for any number of maps; one analysis of a

@@ -131,7 +131,8 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
 
 lobe::AnyLobe without_finer_than(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   if (lobe.is_mirror()) return lobe;
-  const int most = std::clamp(static_cast<int>(1.5 * kPi / texel), kCheapDegree, kMaxDegree / 8);
+  constexpr int kFew = 64;
+  const int most = std::clamp(static_cast<int>(kPi / texel), kFew, kMaxDegree / 8);
   const int known = 4 * most;
   std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
   const auto degree_with = [&](double square) {

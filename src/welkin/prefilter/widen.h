@@ -25,8 +25,8 @@ struct WidenedLobe {
 WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance);
 
 /// The lobe itself, or where it has finer details than texels of `texel` radians can show (a cusp, a ring, an
-/// edge), blurred by the least Gaussian that takes them away: then no more than about 1.5 π/texel degrees
-/// matter (see degree_of). Unlike widen, of lobes that are wide as a whole too.
+/// edge), blurred by the least Gaussian that takes them away: then no more than π/texel degrees matter, or 64
+/// where that is more (see degree_of). Unlike widen, of lobes that are wide as a whole too.
 lobe::AnyLobe without_finer_than(const lobe::AnyLobe& lobe, double texel, double tolerance);
 
 /// Degrees that are cheap: up to here coefficients are kept that matter twenty times less, since a cut at the
