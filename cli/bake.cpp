@@ -10,6 +10,7 @@
 #include "bake_levels.h"
 #include "bake_report.h"
 #include "bake_source.h"
+#include "bake_views.h"
 #include "command.h"
 #include "lights_report.h"
 #include "progress.h"
@@ -27,6 +28,8 @@ struct Bake {
   std::string in, out, tolerance = "0.1%", normalisation = "average", filter = "auto", format;
   std::string rotation, convention, verify;
   BakeLevels made;
+  BakeViews views;
+  const CLI::Option* tolerance_option = nullptr;
   ReadFlags read;
   WriteFlags write;
   double exposure = 0;
@@ -104,9 +107,16 @@ void Bake::run() {
   if (numbered && extract_sun)
     throw UsageError("--extract-sun: is for one map; a sun of its own in every frame would jump between them");
   const WriteMapOptions write_options = parse_write();
+  // What a stack is made with by default: see ViewBakeOptions.
+  if (views.makes_stack() && tolerance_option->count() == 0) tolerance = "0.5%";
   const PrefilterOptions prefilter = parse_options();
   Matrix3 turn;
   if (!rotation.empty()) turn = parse_rotation("--rotate", rotation);
+  const bool of_views = views.asked();
+  if (of_views && !verify.empty()) throw UsageError("--verify: compares with a lobe; --brdf has none");
+  if (of_views && normalisation == "integral")
+    throw UsageError("--normalisation: --brdf makes averages, with the albedo beside them");
+  if (of_views) views.prepare(made, out);
   made.parse(out, write);
   BakeOptions& options = made.options;
   options.prefilter = prefilter;
@@ -140,6 +150,8 @@ void Bake::run() {
   const PrefilterShape shape{source.parameterization, {source.width(), source.height()}, source.channels()};
   if (!verify.empty()) check_verifiable(shape);
   report.read_seconds = clock.lap();
+  if (of_views && exposure != 0) scale(source, static_cast<float>(std::exp2(exposure)));
+  if (of_views) return views.run(source, made, in, out, write_options, json);
   const BakePlan plan(shape, options);
   report.methods = plan.methods();
   report.plan_seconds = clock.lap();
@@ -185,10 +197,12 @@ void add_bake(CLI::App& app) {
           "standard output, see --format; of frames, a name with %04d or #### too")
       ->required();
   bake->made.add(*command);
-  command
-      ->add_option("--tolerance", bake->tolerance,
-                   "Relative RMS error to aim for at every level, 0.000001 to 0.1; or in percent, 0.1%")
-      ->capture_default_str();
+  bake->views.add(*command);
+  bake->tolerance_option =
+      command
+          ->add_option("--tolerance", bake->tolerance,
+                       "Relative RMS error to aim for at every level, 0.000001 to 0.1; or in percent, 0.1%")
+          ->capture_default_str();
   command
       ->add_flag("--verify{64}", bake->verify,
                  "Compare N random texels of each level, and the brightest, with brute force, and measure "
