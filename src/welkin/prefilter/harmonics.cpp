@@ -321,30 +321,53 @@ HarmonicResults run_harmonics(const Tables& t, const Map& source, const Monitor&
     return !negative;
   };
 
-  struct Band {
-    std::size_t level;
-    int chart, row, rows;
-  };
   HarmonicResults results;
   for (const HarmonicLevel& level : t.harmonic)
     results.levels.push_back(t.result(static_cast<std::size_t>(level.index), source));
   std::vector<LevelTexels> texels;
-  std::vector<Band> bands;
   for (std::size_t i = 0; i < t.harmonic.size(); ++i) {
     Map& map = results.levels[i];
     const Matrix3 to_source = source.orientation * transpose(map.orientation);
     texels.emplace_back(t.harmonic[i], grids[i], near[i], bright, to_source, is_nonnegative, map);
-    const int rows = std::max(1, 2048 / map.width());
+  }
+  std::vector<GroupTexels> groups;
+  std::vector<bool> grouped(texels.size(), false);
+  for (const LevelGroup& group : t.groups) {
+    std::vector<const LevelTexels*> members;
+    for (const std::size_t each : group.harmonic) {
+      members.push_back(&texels[each]);
+      grouped[each] = true;
+    }
+    groups.emplace_back(group.lobes, std::move(members), bright);
+  }
+
+  struct Band {
+    const LevelTexels* level;
+    const GroupTexels* group;  ///< null: the level alone
+    int chart, row, rows;
+  };
+  std::vector<Band> bands;
+  const auto add_bands = [&](const LevelTexels& level, const GroupTexels* group) {
+    const Map& map = level.result();
+    const int rows = std::max(1, (group != nullptr ? 512 : 2048) / map.width());
     for (int chart = 0; chart < map.charts(); ++chart) {
       for (int y = 0; y < map.height(); y += rows)
-        bands.push_back({i, chart, y, std::min(rows, map.height() - y)});
+        bands.push_back({&level, group, chart, y, std::min(rows, map.height() - y)});
     }
+  };
+  for (std::size_t i = 0; i < groups.size(); ++i) add_bands(texels[t.groups[i].harmonic.front()], &groups[i]);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!grouped[i]) add_bands(texels[i], nullptr);
   }
   parallel_for(
       static_cast<int>(bands.size()),
       [&](int k) {
         const Band& band = bands[static_cast<std::size_t>(k)];
-        texels[band.level].rows(band.chart, band.row, band.rows);
+        if (band.group != nullptr) {
+          band.group->rows(band.chart, band.row, band.rows);
+        } else {
+          band.level->rows(band.chart, band.row, band.rows);
+        }
       },
       part_of(monitor, 0.72, 1));
   return results;

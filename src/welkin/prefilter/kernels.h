@@ -5,6 +5,7 @@
 #include "welkin/prefilter/legendre.h"
 #include "welkin/prefilter/near_field.h"
 #include "welkin/prefilter/point_grid.h"
+#include "welkin/prefilter/sampled_group.h"
 
 /// The inner loops of pre-filtering, compiled once per instruction set. `parts` are the real and imaginary
 /// parts of up to three channels: 2, 4 or 6 values side by side.
@@ -71,6 +72,9 @@ struct Kernels {
 
   /// Of a SampledLobe.
   lobe::PointSums sampled_sums;
+  /// The same of all lobes of a group: values[(i · channels + c) · members + k] is set to lobe k's.
+  void (*group_sums)(const SampledGroup& group, const lobe::Points& points, const float* x, const float* y,
+                     const float* z, float* values, std::size_t count);
 
   /// See legendre_impl.h; index channels − 1.
   void (*analyse[3])(const Latitudes& latitudes, const Recurrence& r, int degree, const float* rows,

@@ -174,6 +174,74 @@ struct KernelsOf {
     lobe::PointSumsOf<Sampled<Arch>, Arch>::sums(&sampled, points, x, y, z, values, count);
   }
 
+  /// Points whose places in a group's table are found together.
+  static constexpr int kPlaces = 64;
+
+  /// Where eight or more points lie in a group's table, from one direction.
+  static void places(const SampledGroup& group, const lobe::Points& points, int first, const float* direction,
+                     int* indices, float* parts) {
+    using Pack = xsimd::batch<float, Arch>;
+    const Pack core(group.core), most(static_cast<float>(SampledGroup::kSteps));
+    const Pack scale(static_cast<float>(SampledGroup::kSteps) * (2.0f + group.core) / 2.0f);
+    const Pack px(direction[0]), py(direction[1]), pz(direction[2]);
+    alignas(64) float x[kPlaces], y[kPlaces], z[kPlaces];
+    const int count = std::min(kPlaces, points.count - first);
+    for (int k = 0; k < kPlaces; ++k) {
+      const int at = first + (k < count ? k : 0);
+      x[k] = points.x[at], y[k] = points.y[at], z[k] = points.z[at];
+    }
+    for (int k = 0; k < kPlaces; k += static_cast<int>(Pack::size)) {
+      const Pack dx = px - Pack::load_aligned(x + k), dy = py - Pack::load_aligned(y + k),
+                 dz = pz - Pack::load_aligned(z + k);
+      const Pack chord = xsimd::sqrt(dx * dx + dy * dy + dz * dz);
+      const Pack position = xsimd::min(scale * chord / (chord + core), most);
+      const auto index = xsimd::to_int(position);
+      index.store_aligned(indices + k);
+      (position - xsimd::to_float(index)).store_aligned(parts + k);
+    }
+  }
+
+  /// Sums of a pack of members and up to three channels, which stay in registers.
+  template <int kChannels>
+  static void sum_members(const SampledGroup& group, std::size_t member, const lobe::Points& points,
+                          int first, int count, int channel, const int* indices, const float* parts,
+                          float* to) {
+    V sum[kChannels];
+    const std::size_t row = group.members;
+    for (int c = 0; c < kChannels; ++c) sum[c] = V::load(to + static_cast<std::size_t>(c) * row);
+    const float* light = points.weight + static_cast<std::ptrdiff_t>(first) * points.channels + channel;
+    for (int k = 0; k < count; ++k, light += points.channels) {
+      const float* below = group.values.data() + static_cast<std::size_t>(indices[k]) * row + member;
+      const V at = V::load(below);
+      const V weight = V::fma(V(parts[k]), V::load(below + row) - at, at);
+      for (int c = 0; c < kChannels; ++c) sum[c] = V::fma(weight, V(light[c]), sum[c]);
+    }
+    for (int c = 0; c < kChannels; ++c) sum[c].store(to + static_cast<std::size_t>(c) * row);
+  }
+
+  static void group_sums(const SampledGroup& group, const lobe::Points& points, const float* x,
+                         const float* y, const float* z, float* values, std::size_t count) {
+    const std::size_t each = static_cast<std::size_t>(points.channels) * group.members;
+    std::memset(values, 0, count * each * sizeof(float));
+    alignas(64) int indices[kPlaces];
+    alignas(64) float parts[kPlaces];
+    for (std::size_t i = 0; i < count; ++i, values += each) {
+      const float direction[3] = {x[i], y[i], z[i]};
+      for (int first = 0; first < points.count; first += kPlaces) {
+        const int some = std::min(kPlaces, points.count - first);
+        places(group, points, first, direction, indices, parts);
+        for (int channel = 0; channel < points.channels; channel += 3) {
+          float* to = values + static_cast<std::size_t>(channel) * group.members;
+          const auto sum = points.channels - channel == 1   ? &sum_members<1>
+                           : points.channels - channel == 2 ? &sum_members<2>
+                                                            : &sum_members<3>;
+          for (std::size_t member = 0; member < group.members; member += SampledGroup::kPack)
+            sum(group, member, points, first, some, channel, indices, parts, to + member);
+        }
+      }
+    }
+  }
+
   static const Kernels& table() {
     static constexpr Kernels kernels{
         &spread_rows,
@@ -183,6 +251,7 @@ struct KernelsOf {
         {&Near<Arch>::template near<1>, &Near<Arch>::template near<2>, &Near<Arch>::template near<3>},
         &Fft<Arch>::inverse,
         &sampled_sums,
+        &group_sums,
         {&Legendre<Arch, 2>::analyse, &Legendre<Arch, 4>::analyse, &Legendre<Arch, 6>::analyse},
         {&Legendre<Arch, 2>::synthesise, &Legendre<Arch, 4>::synthesise, &Legendre<Arch, 6>::synthesise}};
     return kernels;

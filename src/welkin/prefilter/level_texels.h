@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "welkin/filter/fetch.h"
 #include "welkin/prefilter/bright_points.h"
 #include "welkin/prefilter/harmonics.h"
+#include "welkin/prefilter/sampled_group.h"
 
 namespace welkin::prefilter {
 
@@ -33,6 +35,22 @@ class LevelTexels {
   /// Fills these rows of a chart.
   void rows(int chart, int from, int rows) const;
 
+  /// Some texels of a chart's rows: directions in the source's frame, and where they lie in the grid.
+  struct Tile {
+    static constexpr std::size_t kMost = 256;
+    std::size_t count = 0;
+    alignas(64) float x[kMost], y[kMost], z[kMost];
+    alignas(64) float at_chart[kMost], at_u[kMost], at_v[kMost];
+  };
+  /// Where `tile.count` texels lie, from the `first` of the rows from `from` on.
+  void aim(int chart, int from, std::size_t first, Tile& tile) const;
+  /// Makes these texels. `bright`: the bright points' sums, `stride` from one value to the next; null: to be
+  /// summed here.
+  void fill(int chart, int from, std::size_t first, const Tile& tile, const float* bright,
+            std::size_t stride) const;
+
+  const Map& result() const { return result_; }
+
  private:
   void add_bright(const float* x, const float* y, const float* z, float* values, std::size_t count) const;
 
@@ -47,6 +65,22 @@ class LevelTexels {
   const std::function<bool()>& is_nonnegative_;
   Map& result_;
   std::vector<float> weights_;  ///< the bright points', times the lobe's scale
+};
+
+/// The texels of levels that are summed together.
+class GroupTexels {
+ public:
+  /// All of them refer to what outlives this.
+  GroupTexels(const SampledGroup& lobes, std::vector<const LevelTexels*> members, const BrightPoints& bright)
+      : lobes_(lobes), members_(std::move(members)), bright_(bright) {}
+
+  /// Fills these rows of a chart, of every member.
+  void rows(int chart, int from, int rows) const;
+
+ private:
+  const SampledGroup& lobes_;
+  std::vector<const LevelTexels*> members_;
+  const BrightPoints& bright_;
 };
 
 }  // namespace welkin::prefilter

@@ -114,6 +114,33 @@ void add_near_and_far(PrefilterPlan::Tables& t, std::size_t level, const Choice&
   t.methods.push_back({"near and far", choice.degree(), near.grid, choice.lobe.lobe, choice.lobe.sigma});
 }
 
+/// Finds the levels that are summed together; of fewer than these each is as fast alone.
+void add_groups(PrefilterPlan::Tables& t) {
+  constexpr std::size_t kFewest = 4;
+  std::vector<bool> taken(t.harmonic.size(), false);
+  for (std::size_t i = 0; i < t.harmonic.size(); ++i) {
+    const auto size_of = [&](std::size_t k) {
+      return t.levels[static_cast<std::size_t>(t.harmonic[k].index)].size;
+    };
+    std::vector<std::size_t> members;
+    std::vector<const lobe::AnyLobe*> lobes;
+    std::vector<double> scales;
+    double core = 2;
+    for (std::size_t k = i; k < t.harmonic.size(); ++k) {
+      const HarmonicLevel& level = t.harmonic[k];
+      const bool alike = size_of(k).width == size_of(i).width && size_of(k).height == size_of(i).height;
+      if (taken[k] || !level.sampled || level.all || !alike) continue;
+      members.push_back(k);
+      lobes.push_back(&level.lobe);
+      scales.push_back(level.scale);
+      core = std::min(core, static_cast<double>(level.sampled->core));
+    }
+    if (members.size() < kFewest) continue;
+    for (const std::size_t k : members) taken[k] = true;
+    t.groups.push_back({std::move(members), SampledGroup(lobes, core, scales)});
+  }
+}
+
 }  // namespace
 
 PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyParameterization& target,
@@ -136,6 +163,7 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
       add_near_and_far(*tables, i, *choices[i]);
     }
   }
+  add_groups(*tables);
   tables_ = std::move(tables);
 }
 

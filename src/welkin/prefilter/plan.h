@@ -6,9 +6,20 @@
 #include "welkin/prefilter/harmonics.h"
 #include "welkin/prefilter/near.h"
 #include "welkin/prefilter/prefilter.h"
+#include "welkin/prefilter/sampled_group.h"
 
 /// What a plan keeps. Internal to prefilter.
 namespace welkin {
+
+namespace prefilter {
+
+/// Levels of one size whose lobes are tables: those of a stack of angles of view.
+struct LevelGroup {
+  std::vector<std::size_t> harmonic;  ///< indices into Tables::harmonic
+  SampledGroup lobes;                 ///< theirs, in this order, with their scales
+};
+
+}  // namespace prefilter
 
 struct PrefilterPlan::Tables {
   PrefilterShape source;
@@ -20,6 +31,7 @@ struct PrefilterPlan::Tables {
   std::optional<prefilter::HarmonicAnalysis> analysis = {};  ///< where there are `harmonic`
   std::vector<prefilter::HarmonicLevel> harmonic = {};       ///< in order of level
   std::vector<prefilter::NearGroup> near = {};
+  std::vector<prefilter::LevelGroup> groups = {};
 
   /// Where a level's result goes: a map of its size, with the names of the source's channels. All of its
   /// texels are to be written, and its borders where the options ask for them.

@@ -131,25 +131,28 @@ WidenedLobe widen(const lobe::AnyLobe& lobe, double texel, double tolerance) {
 
 lobe::AnyLobe without_finer_than(const lobe::AnyLobe& lobe, double texel, double tolerance) {
   if (lobe.is_mirror()) return lobe;
-  constexpr int kFew = 64;
+  constexpr int kFew = 64, kFewCheap = 96;
   const int most = std::clamp(static_cast<int>(kPi / texel), kFew, kMaxDegree / 8);
   const int known = 4 * most;
   std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
-  const auto degree_with = [&](double square) {
-    std::vector<double> blurred_zonal = zonal;
+  // All of the degrees that widen chooses by; on coarse texels the last, of smooth lobes, is the cheapest.
+  const bool coarse = most == kFew;
+  const auto few_with = [&](double square) {
+    std::vector<double> less = zonal;
     for (std::size_t l = 0; l < zonal.size(); ++l) {
       const double n = static_cast<double>(l);
-      blurred_zonal[l] *= std::exp(-0.5 * square * n * (n + 1));
+      less[l] *= std::exp(-0.5 * square * n * (n + 1));
     }
-    return degree_of(blurred_zonal, tolerance);
+    return degree_of(less, tolerance) <= most &&
+           degree_of(less, coarse ? 1e-7 : tolerance / 20) <= std::max(kFewCheap, most * 5 / 4);
   };
-  if (degree_of(zonal, tolerance) <= most) return lobe;
+  if (few_with(0)) return lobe;
   // The least Gaussian that suffices; at the last degree known even the smallest leaves e^−20.
   double low = 40.0 / (static_cast<double>(known) * known), high = 40.0 / (static_cast<double>(most) * most);
-  if (degree_with(low) <= most) high = low;
+  if (few_with(low)) high = low;
   while (high > 1.02 * low) {
     const double middle = std::sqrt(low * high);
-    (degree_with(middle) <= most ? high : low) = middle;
+    (few_with(middle) ? high : low) = middle;
   }
   return blurred(lobe, std::move(zonal), high, tolerance).lobe;
 }
