@@ -10,7 +10,7 @@ namespace welkin::prefilter {
 /// Several lobes sampled at the same chords (see ChordSamples), for levels of one size that are summed
 /// together: a point's place in the table, once found, serves all of them.
 struct SampledGroup {
-  static constexpr int kSteps = 1024, kPack = 8;
+  static constexpr int kSteps = 2048, kPack = 8;
 
   /// The least of the lobes' cores suits all. `scales`: of each lobe's weights.
   SampledGroup(const std::vector<const lobe::AnyLobe*>& lobes, double core,

@@ -133,7 +133,7 @@ lobe::AnyLobe without_finer_than(const lobe::AnyLobe& lobe, double texel, double
   if (lobe.is_mirror()) return lobe;
   constexpr int kFew = 64, kFewCheap = 96;
   const int most = std::clamp(static_cast<int>(kPi / texel), kFew, kMaxDegree / 8);
-  const int known = 4 * most;
+  const int known = std::max(768, 4 * most);
   std::vector<double> zonal = lobe::zonal_coefficients(lobe, known);
   // All of the degrees that widen chooses by; on coarse texels the last, of smooth lobes, is the cheapest.
   const bool coarse = most == kFew;
