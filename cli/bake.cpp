@@ -105,7 +105,8 @@ void Bake::run() {
   if (numbered && !verify.empty())
     throw UsageError("--verify: is for one map; of frames, --held-out measures the error of interpolating");
   if (numbered && extract_sun)
-    throw UsageError("--extract-sun: is for one map; a sun of its own in every frame would jump between them");
+    throw UsageError(
+        "--extract-sun: is for one map; a sun of its own in every frame would jump between them");
   const WriteMapOptions write_options = parse_write();
   // What a stack is made with by default: see ViewBakeOptions.
   if (views.makes_stack() && tolerance_option->count() == 0) tolerance = "0.5%";
@@ -116,6 +117,9 @@ void Bake::run() {
   if (of_views && !verify.empty()) throw UsageError("--verify: compares with a lobe; --brdf has none");
   if (of_views && normalisation == "integral")
     throw UsageError("--normalisation: --brdf makes averages, with the albedo beside them");
+  if (of_views && extract_sun)
+    throw UsageError("--extract-sun: is not told with --brdf; bake what `welkin lights --residual` leaves");
+  if (of_views && numbered) throw UsageError("--brdf: is for one map, not for frames");
   if (of_views) views.prepare(made, out);
   made.parse(out, write);
   BakeOptions& options = made.options;

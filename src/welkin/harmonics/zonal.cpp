@@ -7,7 +7,7 @@
 #include "welkin/base/error.h"
 #include "welkin/harmonics/extrema.h"
 #include "welkin/lobe/zonal.h"
-#include "welkin/measure/luminance.h"
+#include "welkin/map/luminance.h"
 
 namespace welkin::harmonics {
 

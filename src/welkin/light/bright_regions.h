@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "welkin/map/luminance.h"
 #include "welkin/map/texel_grid.h"
-#include "welkin/measure/luminance.h"
 
 /// Which texels a light consists of. Internal to light.
 namespace welkin {

@@ -10,8 +10,8 @@
 #include "welkin/base/parallel.h"
 #include "welkin/light/importance_tables.h"
 #include "welkin/light/importance_texel.h"
-#include "welkin/map/texel_points.h"
 #include "welkin/map/luminance.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "welkin/base/monitor.h"
+#include "welkin/map/luminance.h"
 #include "welkin/map/texel_grid.h"
-#include "welkin/measure/luminance.h"
 
 /// One pass over a map: what it adds up to, and where it is bright. Internal to light.
 namespace welkin {

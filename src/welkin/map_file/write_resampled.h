@@ -26,8 +26,8 @@ struct WriteResampledOptions {
 /// Writes what the source becomes as a map of this shape and size: the same file as by resample() without
 /// borders (with them, where a safety border is written), scale() and write_chain() of the one level. The map
 /// itself is never in memory as a whole, as far as the format is written row by row: its texels are made when
-/// their turn comes; but for a safety border, in cells that are rotated or mirrored for Filter::automatic, and
-/// in cells on their side for `made`. The source's borders must be filled. Throws as these do, and what a
+/// their turn comes; but for a safety border, in cells that are rotated or mirrored for Filter::automatic,
+/// and in cells on their side for `made`. The source's borders must be filled. Throws as these do, and what a
 /// callback of the monitor throws; nothing is left behind then.
 WELKIN_API io::WriteReport write_resampled(const std::filesystem::path& path, const Map& source,
                                            const MapShape& shape, ChartSize size,
