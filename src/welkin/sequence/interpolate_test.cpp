@@ -50,7 +50,8 @@ TEST(Interpolated, IsExactAtBothEndsAndWhereBothAgree) {
 }
 
 // Filtering is linear but for its tolerance, which what is left out of lobes comes to: here 1e-5 in the mean
-// square. Levels of a few texels are no mean, so ten times that.
+// square. Levels of a few texels are no mean, so ten times that. A mirror's level is a mean of a
+// reconstruction that is limited where it would go below 0, which isn't linear.
 TEST(Interpolated, IsTheChainOfTheInterpolatedSource) {
   Map a = sky(0);
   const Map b = sky(90);
@@ -62,7 +63,7 @@ TEST(Interpolated, IsTheChainOfTheInterpolatedSource) {
   }
   const Chain direct = chain_of(a, 1e-5);
   for (std::size_t k = 0; k < direct.levels.size(); ++k) {
-    EXPECT_LT(compare(direct.levels[k], chain.levels[k]).all.relative_rmse, 1e-4) << k;
+    EXPECT_LT(compare(direct.levels[k], chain.levels[k]).all.relative_rmse, k == 0 ? 1e-3 : 1e-4) << k;
   }
 }
 
