@@ -59,7 +59,7 @@ class Clock {
 
 /// As graphics cards name them.
 std::vector<std::string> texel_formats() {
-  return {"rgba32f", "rgba16f", "rgb9e5", "r11g11b10"};
+  return {"rgba32f", "rgba16f", "rgb9e5", "r11g11b10", "bc6h"};
 }
 
 /// `0.001`, `0.1%` or `0.1 %`.
@@ -218,7 +218,7 @@ void add_bake(CLI::App& app) {
   command
       ->add_option(
           "--format", bake->format,
-          "Stored texels: rgba32f, rgba16f, rgb9e5, r11g11b10; or of standard output, where OUT is -, "
+          "Stored texels: rgba32f, rgba16f, rgb9e5, r11g11b10, bc6h; or of standard output, where OUT is -, "
           "the format: ktx2, exr…, and --type says what is stored")
       ->check(CLI::IsMember(formats))
       ->option_text("TEXT");

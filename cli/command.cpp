@@ -11,6 +11,7 @@
 
 #include "progress.h"
 #include "welkin/base/error.h"
+#include "welkin/base/number_text.h"
 #include "welkin/io/output_file.h"
 #include "welkin/io/process.h"
 #include "welkin/sphere/convention.h"
@@ -231,14 +232,16 @@ void WriteFlags::add(CLI::App& command) {
   command.add_option("--to-faces", faces,
                      "Order and quarter turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
   command.add_option("--type", type,
-                     "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10 in KTX2. "
+                     "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10, bc6h in KTX2. "
                      "Default: the format's best");
   command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")
       ->capture_default_str();
   command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");
-  command.add_option("--quality", quality, "Quality of lossy formats")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
+  command
+      .add_option(
+          "--quality", quality,
+          "Of lossy formats 1 to 100; of bc6h how long the best blocks are searched: fast, normal, best")
+      ->option_text("TEXT [95, normal]");
   command
       .add_option("--border", border,
                   "Texels of safety border to write around every chart, for renderers that sample charts as "
@@ -246,13 +249,35 @@ void WriteFlags::add(CLI::App& command) {
       ->check(CLI::Range(0, 65536));
 }
 
+namespace {
+
+void parse_quality(const std::string& text, io::WriteOptions& options) {
+  if (text.empty()) return;
+  constexpr std::pair<std::string_view, TextureQuality> kNames[] = {
+      {"fast", TextureQuality::fast}, {"normal", TextureQuality::normal}, {"best", TextureQuality::best}};
+  for (const auto& [name, quality] : kNames) {
+    if (text == name) {
+      options.texture_quality = quality;
+      return;
+    }
+  }
+  const std::optional<double> number = parse_number(text);
+  if (!number || *number != std::floor(*number) || *number < 1 || *number > 100)
+    throw UsageError(
+        fmt::format("--quality: '{}' is neither a whole number of 1 to 100 nor one of fast, normal, best",
+                    printable(text)));
+  options.quality = static_cast<int>(*number);
+}
+
+}  // namespace
+
 WriteMapOptions WriteFlags::parse() const {
   WriteMapOptions options;
   options.faces = faces;
   options.border = border;
   options.image.colour = parse_colour("--to-colour", colour);
   options.image.compression = compression;
-  options.image.quality = quality;
+  parse_quality(quality, options.image);
   if (!type.empty()) {
     options.image.type = parse_option("--type", [&] { return io::pixel_type_from_name(type); });
   }

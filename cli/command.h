@@ -90,7 +90,7 @@ struct ReadFlags {
 /// Options of every command that writes a map.
 struct WriteFlags {
   std::string faces, type, colour = "auto", compression;
-  int quality = 95;
+  std::string quality;
   int border = 0;
 
   void add(CLI::App& command);

@@ -31,6 +31,7 @@ double largest_of(io::PixelType type, const io::Capabilities& format) {
       // EXR's are whole numbers as they are.
       return format.format == "exr" ? kLargestHalf : 1;
     case io::PixelType::half:
+    case io::PixelType::bc6h:
     case io::PixelType::float32:
       return kLargestHalf;
     case io::PixelType::rgb9e5:

@@ -98,6 +98,7 @@
 #include "welkin/sphere/traits.h"
 #include "welkin/synth/render_synth.h"
 #include "welkin/synth/synth.h"
+#include "welkin/texture/texture_quality.h"
 
 /// Environment maps: read, convert, filter, measure, write.
 namespace welkin {}

@@ -10,8 +10,8 @@
 namespace welkin::io {
 namespace {
 
-constexpr PixelType kTypes[] = {PixelType::uint8,   PixelType::uint16, PixelType::uint32,   PixelType::half,
-                                PixelType::float32, PixelType::rgb9e5, PixelType::r11g11b10};
+constexpr PixelType kTypes[] = {PixelType::uint8,   PixelType::uint16, PixelType::uint32,    PixelType::half,
+                                PixelType::float32, PixelType::rgb9e5, PixelType::r11g11b10, PixelType::bc6h};
 
 std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -39,8 +39,14 @@ std::string_view name_of(PixelType type) {
       return "rgb9e5";
     case PixelType::r11g11b10:
       return "r11g11b10";
+    case PixelType::bc6h:
+      return "bc6h";
   }
   return "?";
+}
+
+bool is_packed(PixelType type) {
+  return type == PixelType::rgb9e5 || type == PixelType::r11g11b10 || type == PixelType::bc6h;
 }
 
 PixelType pixel_type_from_name(std::string_view name) {

@@ -22,9 +22,13 @@ enum class PixelType {
   float32,    ///< IEEE 754 binary32
   rgb9e5,     ///< three of nine bits with a common exponent
   r11g11b10,  ///< three small floats without sign
+  bc6h,       ///< compressed blocks of 4×4 texels of three halves, never negative
 };
 
-/// The name in options: `uint8`, `uint16`, `uint32`, `half`, `float`, `rgb9e5`, `r11g11b10`.
+/// Whether it holds three values that are never negative, and no alpha: `rgb9e5`, `r11g11b10`, `bc6h`.
+WELKIN_API bool is_packed(PixelType type);
+
+/// The name in options: `uint8`, `uint16`, `uint32`, `half`, `float`, `rgb9e5`, `r11g11b10`, `bc6h`.
 WELKIN_API std::string_view name_of(PixelType type);
 
 /// The type of that name. Throws Error (bad_request) for another, which suggests the nearest.

@@ -56,6 +56,7 @@ std::size_t size_of(PixelType type) {
       return 4;
     case PixelType::rgb9e5:
     case PixelType::r11g11b10:
+    case PixelType::bc6h:
       break;
   }
   assert(false);
@@ -112,6 +113,7 @@ void PixelDecoder::decode(const void* stored, std::span<const int> channels, int
           [&](std::size_t channel, float x) { return srgb_[channel] != 0 ? linear(channel, x) : x; });
     case PixelType::rgb9e5:
     case PixelType::r11g11b10:
+    case PixelType::bc6h:
       assert(false);
   }
 }

@@ -134,6 +134,7 @@ void PixelEncoder::encode_as_they_are(const float* in, int image_channels, int c
         break;
       case PixelType::rgb9e5:
       case PixelType::r11g11b10:
+      case PixelType::bc6h:
         assert(false);
     }
   }

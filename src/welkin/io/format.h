@@ -47,6 +47,8 @@ const std::vector<Format>& formats();
 Format exr_format();
 Format hdr_format();
 Format ktx2_format();
+Format ktx1_format();
+Format dds_format();
 Format pfm_format();
 Format png_format();
 Format jpeg_format();

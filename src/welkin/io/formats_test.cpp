@@ -19,8 +19,8 @@ std::vector<std::string> extensions() {
 }
 
 TEST(Formats, ExtensionsAreTheDocumentedOnes) {
-  const std::vector<std::string> documented = {"hdr",  "ktx2", "pfm",  "png", "jpg",
-                                               "jpeg", "tif",  "tiff", "webp"};
+  const std::vector<std::string> documented = {"hdr", "ktx2", "ktx", "dds",  "pfm", "png",
+                                               "jpg", "jpeg", "tif", "tiff", "webp"};
   EXPECT_EQ(extensions(), documented);
 }
 
@@ -32,6 +32,7 @@ TEST(Formats, PixelTypesHaveTheirNames) {
   EXPECT_EQ(name_of(PixelType::float32), "float");
   EXPECT_EQ(name_of(PixelType::rgb9e5), "rgb9e5");
   EXPECT_EQ(name_of(PixelType::r11g11b10), "r11g11b10");
+  EXPECT_EQ(name_of(PixelType::bc6h), "bc6h");
 }
 
 TEST(Formats, AreKnownByTheirBytesNotTheirName) {
@@ -70,7 +71,8 @@ TEST(Formats, UnknownFilesAreExplained) {
       message.find("a.xyz: not an image of a known format: begins with '.XYZ89a.' (02 58 59 5a 38 39 61 01)"),
       std::string::npos)
       << message;
-  EXPECT_NE(message.find("exr, hdr, ktx2, pfm, png, jpeg, tiff, webp, jxl, avif, heif"), std::string::npos)
+  EXPECT_NE(message.find("exr, hdr, ktx2, ktx, dds, pfm, png, jpeg, tiff, webp, jxl, avif, heif"),
+            std::string::npos)
       << message;
   const TemporaryFolder folder;
   const std::string missing = (folder / "missing.png").string();
@@ -100,7 +102,7 @@ TEST(Formats, OnlyReadOnesAreNotWritten) {
     ++count;
     const std::string cause =
         format.title +
-        " is only read here, not written (can be written: exr, hdr, ktx2, pfm, png, jpg, "
+        " is only read here, not written (can be written: exr, hdr, ktx2, ktx, dds, pfm, png, jpg, "
         "jpeg, tif, tiff, webp)";
     for (const std::string& extension : format.extensions) {
       const fs::path path = folder / ("a." + extension);

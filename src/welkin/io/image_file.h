@@ -16,6 +16,7 @@
 #include "welkin/image/image.h"
 #include "welkin/io/byte_sink.h"
 #include "welkin/io/capabilities.h"
+#include "welkin/texture/texture_quality.h"
 
 /// @file
 /// Bytes ↔ images. This room knows files and pixels; what a picture means on the sphere is decided in
@@ -172,10 +173,11 @@ struct WriteOptions {
   Colour colour = Colour::automatic;  ///< automatic: sRGB into integer formats, linear into float ones
   /// Empty: the format's default; else one of Capabilities::compressions: `none`, `zip`, `piz`, `dwaa`….
   std::string compression = {};
-  int quality = 95;                                    ///< of lossy formats, 1…100
-  std::map<std::string, std::string> attributes = {};  ///< text metadata, in formats that carry it
-  std::optional<std::string> envmap = {};              ///< EXR's standard `envmap` attribute
-  std::optional<Panorama> panorama = {};               ///< XMP's GPano, in formats that carry XMP
+  int quality = 95;                                         ///< of lossy formats, 1…100
+  TextureQuality texture_quality = TextureQuality::normal;  ///< of compressed textures
+  std::map<std::string, std::string> attributes = {};       ///< text metadata, in formats that carry it
+  std::optional<std::string> envmap = {};                   ///< EXR's standard `envmap` attribute
+  std::optional<Panorama> panorama = {};                    ///< XMP's GPano, in formats that carry XMP
 };
 
 /// What writing lost, for the caller to report.

@@ -29,11 +29,6 @@ struct Known {
 
 /// Those with a mark at a place of its own. The first that fits is told.
 constexpr Known kKnown[] = {
-    {0, "DDS "sv, "a DDS texture",
-     "convert it to EXR, for instance by OpenImageIO's `oiiotool IN -o OUT` or DirectXTex's `texconv -ft "
-     "hdr`"},
-    {0, "\xabKTX 11\xbb\r\n\x1a\n"sv, "a KTX texture of version 1",
-     "make it one of version 2 by `ktx2ktx2` of Khronos's KTX-Software"},
     {0, "\x86\x16\x87\x96\xf6\xd6\x96\x36"sv, "an environment of Babylon.js (.env)",
      "use the .hdr or .exr that it was made from"},
     {0, "PVR\3"sv, "a PVR texture", "convert it, for instance by `PVRTexToolCLI -d`"},

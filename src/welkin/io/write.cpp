@@ -29,7 +29,7 @@ void check_picture(const Format& chosen, const WritePart& part, const WriteOptio
     compression(options, format.compressions, format.title);
   }
   checked_quality(options);
-  const bool packed = type == PixelType::rgb9e5 || type == PixelType::r11g11b10;
+  const bool packed = is_packed(type);
   const bool two = format.channels == Channels::rg_or_rgba && !packed && is_red_green(part);
   if (format.channels != Channels::any && !two) {
     const Alpha alpha = format.channels != Channels::rgb && !packed ? Alpha::allowed : Alpha::none;

@@ -35,9 +35,7 @@ Map without_channel(const Map& map, std::size_t dropped) {
 
 /// Whether files of the format can have alpha beside these values.
 bool holds_alpha(const io::Capabilities& format, const io::WriteOptions& options) {
-  const io::PixelType type = options.type.value_or(format.types.front());
-  return format.channels != io::Channels::rgb && type != io::PixelType::rgb9e5 &&
-         type != io::PixelType::r11g11b10;
+  return format.channels != io::Channels::rgb && !io::is_packed(options.type.value_or(format.types.front()));
 }
 
 }  // namespace

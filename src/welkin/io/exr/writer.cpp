@@ -93,6 +93,7 @@ StoredType stored_type(const WriteOptions& options) {
     case PixelType::uint16:
     case PixelType::rgb9e5:
     case PixelType::r11g11b10:
+    case PixelType::bc6h:
       break;
   }
   throw Error(ErrorKind::unsupported,

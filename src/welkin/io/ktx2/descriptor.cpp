@@ -6,14 +6,17 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
-#include "welkin/io/ktx2/format_names.h"
+#include "welkin/io/texels/format_names.h"
 
 namespace welkin::io::ktx2 {
+
+using namespace texels;
+
 namespace {
 
 constexpr std::uint32_t kVersion = 2;  // of the block's layout: that of specification 1.3 and 1.4
-constexpr std::uint32_t kModelRgbsda = 1, kPrimariesBt709 = 1, kTransferLinear = 1, kTransferSrgb = 2,
-                        kFlagPremultiplied = 1;
+constexpr std::uint32_t kModelRgbsda = 1, kModelBc6h = 133, kPrimariesBt709 = 1, kTransferLinear = 1,
+                        kTransferSrgb = 2, kFlagPremultiplied = 1;
 constexpr std::size_t kBlockWords = 6, kSampleWords = 4;
 
 /// How a sample's bits are a number.
@@ -42,8 +45,26 @@ std::vector<Sample> shared_exponent_samples() {
   return samples;
 }
 
+/// The whole block is one sample, of colour.
+std::vector<Sample> block_samples(bool is_signed) {
+  constexpr auto kOne = std::bit_cast<std::uint32_t>(1.0f), kMinusOne = std::bit_cast<std::uint32_t>(-1.0f);
+  return {{0, 128, 0, qualifier::is_float | (is_signed ? qualifier::is_signed : 0), is_signed ? kMinusOne : 0,
+           kOne}};
+}
+
+std::uint32_t model_of(const TexelFormat& format) {
+  return format.coding == Coding::blocks ? kModelBc6h : kModelRgbsda;
+}
+
+/// Sides of the texels that are stored together, less one, a byte each.
+std::uint32_t block_word(const TexelFormat& format) {
+  const auto side = static_cast<std::uint32_t>(format.block() - 1);
+  return side | side << 8;
+}
+
 std::vector<Sample> samples_of(const TexelFormat& format, Colour colour) {
   constexpr auto kOne = std::bit_cast<std::uint32_t>(1.0f), kMinusOne = std::bit_cast<std::uint32_t>(-1.0f);
+  if (format.coding == Coding::blocks) return block_samples(format.is_signed);
   if (format.type == PixelType::rgb9e5) return shared_exponent_samples();
   if (format.type == PixelType::r11g11b10) {
     return {{0, 11, 0, qualifier::is_float, 0, kOne},
@@ -144,14 +165,14 @@ std::vector<std::byte> written_descriptor(const TexelFormat& format, Colour colo
   const std::vector<Sample> samples = samples_of(format, colour);
   const auto block_bytes = static_cast<std::uint32_t>(4 * (kBlockWords + kSampleWords * samples.size()));
   const std::uint32_t transfer = colour == Colour::srgb ? kTransferSrgb : kTransferLinear;
-  std::vector<std::uint32_t> words = {
-      4 + block_bytes,
-      0,  // Khronos's basic descriptor
-      kVersion | block_bytes << 16,
-      kModelRgbsda | kPrimariesBt709 << 8 | transfer << 16 | (premultiplied ? kFlagPremultiplied : 0) << 24,
-      0,  // blocks of one texel
-      static_cast<std::uint32_t>(format.bytes()),
-      0};  // one plane
+  std::vector<std::uint32_t> words = {4 + block_bytes,
+                                      0,  // Khronos's basic descriptor
+                                      kVersion | block_bytes << 16,
+                                      model_of(format) | kPrimariesBt709 << 8 | transfer << 16 |
+                                          (premultiplied ? kFlagPremultiplied : 0) << 24,
+                                      block_word(format),
+                                      static_cast<std::uint32_t>(format.bytes()),
+                                      0};  // one plane
   for (const Sample& sample : samples) {
     words.push_back(sample.bit_offset | (sample.bits - 1) << 16 | sample.channel << 24 |
                     sample.qualifiers << 24);
@@ -176,9 +197,10 @@ Descriptor parse_descriptor(std::span<const std::byte> bytes, std::uint64_t offs
 
   const std::uint32_t model = word(3) & 0xff, primaries = word(3) >> 8 & 0xff,
                       transfer = word(3) >> 16 & 0xff, flags = word(3) >> 24;
-  if (model != kModelRgbsda)
+  if (model != model_of(format))
     fail("is of colour model " + std::to_string(model) + ", not " + format_name(format.number), 12);
-  if (word(4) != 0) fail("is of blocks, not " + format_name(format.number), 16);
+  if (word(4) != block_word(format))
+    fail("is of blocks of another size than those of " + format_name(format.number), 16);
   // 0 stands for any in files that are supercompressed, by older specifications.
   if (const std::uint32_t texel = word(5) & 0xff; texel != 0 && texel != format.bytes())
     fail("is of texels of " + std::to_string(texel) + " bytes, not " + format_name(format.number), 20);

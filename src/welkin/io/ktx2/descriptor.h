@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "welkin/io/declared.h"
-#include "welkin/io/ktx2/formats.h"
+#include "welkin/io/texels/formats.h"
 
 /// KTX2's data format descriptor: how the bits of a texel are to be understood, and its colour space. Source:
 /// "Khronos Data Format Specification" 1.3, chapters 3 to 5 and the examples B10G11R11 and E5B9G9R9.
 namespace welkin::io::ktx2 {
+
+using texels::TexelFormat;
 
 /// The descriptor of a format's texels: RGB primaries of BT.709. `colour` is linear or srgb; `premultiplied`
 /// says that colours are multiplied by the alpha beside them.

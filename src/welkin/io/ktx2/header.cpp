@@ -8,9 +8,13 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
-#include "welkin/io/ktx2/format_names.h"
+#include "welkin/io/texels/format_names.h"
+#include "welkin/io/texels/picture.h"
 
 namespace welkin::io::ktx2 {
+
+using namespace texels;
+
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "KTX2's numbers are read as they lie in memory");
@@ -196,21 +200,13 @@ std::string_view name_of(Scheme scheme) {
   return scheme == Scheme::zstd ? "zstd" : "zlib";
 }
 
-int Header::width_of(std::size_t level) const {
-  return std::max(1, width >> level);
-}
-
-int Header::height_of(std::size_t level) const {
-  return std::max(1, height >> level);
-}
-
 std::uint64_t Header::picture_bytes(std::size_t level) const {
-  return static_cast<std::uint64_t>(width_of(level)) * static_cast<std::uint64_t>(height_of(level)) *
-         format->bytes();
+  return texels::picture_bytes(*format, width_of(level), height_of(level));
 }
 
 std::uint64_t Header::level_bytes(std::size_t level) const {
-  return picture_bytes(level) * static_cast<std::uint64_t>(layer_count()) * static_cast<std::uint64_t>(faces);
+  return picture_bytes(level) * static_cast<std::uint64_t>(shape().layer_count()) *
+         static_cast<std::uint64_t>(faces);
 }
 
 bool is_ktx2(std::span<const std::byte> bytes) {

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "welkin/io/format.h"
-#include "welkin/io/ktx2/formats.h"
+#include "welkin/io/texels/formats.h"
+#include "welkin/io/texels/picture_set.h"
 
 /// The structure of a KTX2 file: header, index and level index, checked here so that nothing behind this file
 /// meets an offset or a size that the file does not hold. Source: "KTX File Format Specification", version 2
@@ -22,6 +23,8 @@
 ///     key/value data
 ///     levels, the coarsest first            of each level: layer by layer, face by face, row by row
 namespace welkin::io::ktx2 {
+
+using texels::TexelFormat;
 
 /// Numbered as in the file.
 enum class Scheme : std::uint32_t { none = 0, zstd = 2, zlib = 3 };
@@ -50,18 +53,15 @@ struct Header {
   Section descriptor, keys;
   std::vector<Level> levels;  ///< the finest first
 
-  int layer_count() const { return layers == 0 ? 1 : layers; }
-  int width_of(std::size_t level) const;
-  int height_of(std::size_t level) const;
+  texels::TextureShape shape() const {
+    return {width, height, static_cast<int>(levels.size()), layers, faces};
+  }
+  int width_of(std::size_t level) const { return shape().width_of(static_cast<int>(level)); }
+  int height_of(std::size_t level) const { return shape().height_of(static_cast<int>(level)); }
   /// Of one face of one layer, unpacked.
   std::uint64_t picture_bytes(std::size_t level) const;
   std::uint64_t level_bytes(std::size_t level) const;
 };
-
-inline constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
-
-/// More pictures in a file, over all levels, layers and faces, are refused.
-inline constexpr std::uint64_t kMaxPictures = 1 << 16;
 
 bool is_ktx2(std::span<const std::byte> bytes);
 
@@ -73,7 +73,7 @@ Header parse_header(const Source& source);
 /// Bytes before the data format descriptor.
 std::uint64_t header_bytes(std::size_t levels);
 
-/// How a level's offset is aligned: lcm(bytes of a texel, 4), or 1 when it is supercompressed.
+/// How a level's offset is aligned: lcm(bytes of a texel or block, 4), or 1 when it is supercompressed.
 std::uint64_t level_alignment(const Header& header);
 
 /// Identifier, header, index and level index as they are written.

@@ -1,6 +1,3 @@
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -8,37 +5,26 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/channel_names.h"
-#include "welkin/io/decode_pixels.h"
 #include "welkin/io/format.h"
 #include "welkin/io/ktx2/descriptor.h"
 #include "welkin/io/ktx2/header.h"
 #include "welkin/io/ktx2/keys.h"
 #include "welkin/io/ktx2/supercompression.h"
-#include "welkin/io/ktx2/texels.h"
 #include "welkin/io/ktx2/writer.h"
+#include "welkin/io/texels/picture.h"
 
 namespace welkin::io {
 namespace ktx2 {
-namespace {
 
-/// `level 2 layer 1 +X`, of which only what the texture has.
-std::string picture_name(const Header& header, int level, int layer, int face) {
-  std::string name;
-  const auto append = [&](const std::string& word) { name += (name.empty() ? "" : " ") + word; };
-  if (header.levels.size() > 1) append("level " + std::to_string(level));
-  if (header.layers > 0) append("layer " + std::to_string(layer));
-  if (header.faces == 6) append(kFaceNames[static_cast<std::size_t>(face)]);
-  return name;
-}
+using namespace texels;
+
+namespace {
 
 class Ktx2Reader final : public FormatReader {
  public:
   explicit Ktx2Reader(const Source& source) : source_(source), header_(parse_header(source)) {
     info_.format = "ktx2";
     info_.bytes = source.bytes.size();
-    info_.levels = static_cast<int>(header_.levels.size());
-    info_.layers = header_.layers;
-    info_.faces = header_.faces;
     try {
       read_descriptor();
       read_keys();
@@ -137,15 +123,7 @@ class Ktx2Reader final : public FormatReader {
     for (const Channel& channel : channels_) names.push_back(channel.name);
     if (channels_.back().name == "A" && !is_alpha_added())
       declared_.alpha = premultiplied_ ? AlphaKind::associated : AlphaKind::straight;
-    for (int level = 0; level < info_.levels; ++level) {
-      const auto index = static_cast<std::size_t>(level);
-      for (int layer = 0; layer < header_.layer_count(); ++layer) {
-        for (int face = 0; face < header_.faces; ++face)
-          info_.parts.push_back({picture_name(header_, level, layer, face), header_.width_of(index),
-                                 header_.height_of(index), names, header_.format->type,
-                                 std::string(name_of(header_.scheme)), level, layer, face});
-      }
-    }
+    list_pictures(header_.shape(), names, header_.format->type, std::string(name_of(header_.scheme)), info_);
   }
 
   /// Unpacked. The level that was read last is kept, since its pictures are read one after the other.
@@ -166,7 +144,6 @@ class Ktx2Reader final : public FormatReader {
     return buffer;
   }
 
-  static constexpr int kZero = -1, kOne = -2;
   struct Channel {
     std::string name;
     int stored;  ///< index into TexelFormat::channels, kZero or kOne
@@ -197,37 +174,14 @@ void Ktx2Reader::decode(std::size_t part_index, std::span<const int> channels, I
   const std::size_t picture_bytes = header_.picture_bytes(level);
   const std::byte* const first = bytes.subspan(picture * picture_bytes, picture_bytes).data();
 
-  const TexelFormat& format = *header_.format;
-  std::vector<std::string> stored_names;
-  for (const char name : format.channels) stored_names.emplace_back(1, name);
-  std::vector<int> stored_channels;
-  std::vector<std::pair<int, float>> constants;
-  for (const int channel : channels) {
-    const int stored = channels_[static_cast<std::size_t>(channel)].stored;
-    if (stored < 0)
-      constants.emplace_back(static_cast<int>(stored_channels.size()), stored == kOne ? 1.0f : 0.0f);
-    stored_channels.push_back(std::max(stored, 0));
-  }
-  const PixelDecoder decoder(format.plain() ? format.type : PixelType::float32,
-                             srgb_channels(stored_names, info_.colour));
-
-  const std::size_t stride = static_cast<std::size_t>(part.width) * format.bytes();
-  const std::size_t grain = std::max<std::size_t>(1, (1 << 16) / stride);
-  tbb::parallel_for(tbb::blocked_range<int>(0, out.height, grain), [&](const tbb::blocked_range<int>& rows) {
-    std::vector<float> floats(format.plain() ? 0
-                                             : format.channels.size() * static_cast<std::size_t>(part.width));
-    for (int y = rows.begin(); y < rows.end(); ++y) {
-      const int stored_row = from_bottom_ ? out.height - 1 - y : y;
-      const std::byte* const texels = first + static_cast<std::size_t>(stored_row) * stride;
-      if (!format.plain()) decode_values(format, texels, part.width, floats.data());
-      const void* const values = format.plain() ? texels : static_cast<const void*>(floats.data());
-      float* const to = from_right_ ? out.at(out.width - 1, y) : out.row(y);
-      decoder.decode(values, stored_channels, part.width, to, from_right_ ? -out.channels : out.channels);
-      for (const auto& [k, value] : constants) {
-        for (int x = 0; x < out.width; ++x) out.at(x, y)[k] = value;
-      }
-    }
-  });
+  std::vector<int> stored;
+  for (const int channel : channels) stored.push_back(channels_[static_cast<std::size_t>(channel)].stored);
+  StoredPicture stored_picture{header_.format, first};
+  stored_picture.row_stride = static_cast<std::size_t>(row_bytes(*header_.format, part.width));
+  stored_picture.colour = info_.colour;
+  stored_picture.from_right = from_right_;
+  stored_picture.from_bottom = from_bottom_;
+  read_picture(stored_picture, stored, out);
 }
 
 std::unique_ptr<FormatReader> open_ktx2(const Source& source) {
@@ -241,7 +195,8 @@ Format ktx2_format() {
   return {{.format = "ktx2",
            .title = "KTX2",
            .extensions = {"ktx2"},
-           .types = {PixelType::float32, PixelType::half, PixelType::rgb9e5, PixelType::r11g11b10},
+           .types = {PixelType::float32, PixelType::half, PixelType::rgb9e5, PixelType::r11g11b10,
+                     PixelType::bc6h},
            .compressions = {"none", "zstd"},
            .channels = Channels::rg_or_rgba,
            .pictures = true,

@@ -16,113 +16,27 @@
 #include "welkin/io/ktx2/header.h"
 #include "welkin/io/ktx2/keys.h"
 #include "welkin/io/ktx2/supercompression.h"
-#include "welkin/io/ktx2/texels.h"
+#include "welkin/io/texels/picture.h"
+#include "welkin/io/texels/picture_set.h"
 #include "welkin/io/write_choices.h"
 
 namespace welkin::io::ktx2 {
+
+using namespace texels;
+
 namespace {
-
-/// The parts in the order in which a level holds them, and the header's sizes.
-class Pictures {
- public:
-  Pictures(std::span<const WritePart> parts, Header& header) {
-    int levels = 0, layers = 0, faces = 0;
-    for (const WritePart& part : parts) {
-      if (part.level < 0 || part.layer < 0 || part.face < 0 || part.face > 5)
-        throw Error(ErrorKind::bad_request, "level " + std::to_string(part.level) + ", layer " +
-                                                std::to_string(part.layer) + ", face " +
-                                                std::to_string(part.face) + " is no place in a texture");
-      levels = std::max(levels, part.level + 1);
-      layers = std::max(layers, part.layer + 1);
-      faces = std::max(faces, part.face + 1);
-    }
-    header.faces = faces == 1 ? 1 : 6;
-    header.layers = layers == 1 ? 0 : layers;
-    const auto pictures = static_cast<std::uint64_t>(levels) * static_cast<std::uint64_t>(layers) *
-                          static_cast<std::uint64_t>(header.faces);
-    if (pictures > kMaxPictures)
-      throw Error(ErrorKind::too_large,
-                  std::to_string(pictures) + " pictures, more than " + std::to_string(kMaxPictures));
-    header.levels.resize(static_cast<std::size_t>(levels));
-    place(parts, header);
-    check_sizes(header);
-  }
-
-  const WritePart& at(std::size_t level, std::size_t picture) const {
-    return *parts_[level * of_level_ + picture];
-  }
-  std::size_t of_level() const { return of_level_; }
-
- private:
-  static std::string name(const Header& header, std::size_t level, std::size_t picture) {
-    const auto faces = static_cast<std::size_t>(header.faces);
-    std::string text = "level " + std::to_string(level);
-    if (header.layers > 0) text += " layer " + std::to_string(picture / faces);
-    return faces == 6 ? text + " " + kFaceNames[picture % faces] : text;
-  }
-
-  void place(std::span<const WritePart> parts, const Header& header) {
-    const auto faces = static_cast<std::size_t>(header.faces);
-    of_level_ = static_cast<std::size_t>(header.layer_count()) * faces;
-    parts_.resize(header.levels.size() * of_level_);
-    for (const WritePart& part : parts) {
-      const auto level = static_cast<std::size_t>(part.level);
-      const auto picture = static_cast<std::size_t>(part.layer) * faces + static_cast<std::size_t>(part.face);
-      const WritePart*& slot = parts_[level * of_level_ + picture];
-      if (slot != nullptr)
-        throw Error(ErrorKind::bad_request, "two pictures for " + name(header, level, picture));
-      slot = &part;
-    }
-    const auto missing = std::find(parts_.begin(), parts_.end(), nullptr);
-    if (missing == parts_.end()) return;
-    const auto index = static_cast<std::size_t>(missing - parts_.begin());
-    throw Error(ErrorKind::bad_request,
-                "no picture for " + name(header, index / of_level_, index % of_level_));
-  }
-
-  void check_sizes(Header& header) const {
-    header.width = parts_[0]->image.width;
-    header.height = parts_[0]->image.height;
-    const auto size_text = [](int width, int height) {
-      return std::to_string(width) + "×" + std::to_string(height);
-    };
-    if (header.faces == 6 && header.width != header.height)
-      throw Error(ErrorKind::unsupported,
-                  "the faces of a cube must be square, not " + size_text(header.width, header.height));
-    const auto maximum = static_cast<std::size_t>(
-        std::bit_width(static_cast<unsigned>(std::max(header.width, header.height))));
-    if (header.levels.size() > maximum)
-      throw Error(ErrorKind::bad_request, std::to_string(header.levels.size()) + " levels, of which " +
-                                              size_text(header.width, header.height) + " has at most " +
-                                              std::to_string(maximum));
-    for (std::size_t level = 0; level < header.levels.size(); ++level) {
-      const int width = header.width_of(level), height = header.height_of(level);
-      for (std::size_t i = 0; i < of_level_; ++i) {
-        const ImageView<const float>& image = at(level, i).image;
-        if (image.width == width && image.height == height) continue;
-        throw Error(ErrorKind::bad_request, name(header, level, i) + " is " +
-                                                size_text(image.width, image.height) + ", not " +
-                                                size_text(width, height));
-      }
-    }
-  }
-
-  std::size_t of_level_ = 1;
-  std::vector<const WritePart*> parts_;  ///< level by level, layer by layer, face by face
-};
-
-/// Whether a map has alpha of its own: its colours are multiplied by it, as they are in memory.
-bool has_alpha(std::span<const WritePart> parts) {
-  return std::any_of(parts.begin(), parts.end(), [](const WritePart& part) {
-    return part.channels.size() > 1 && std::count(part.channels.begin(), part.channels.end(), "A") > 0;
-  });
-}
 
 class Writer {
  public:
-  Writer(std::span<const WritePart> parts, const WriteOptions& options) : pictures_(parts, header_) {
+  Writer(std::span<const WritePart> parts, const WriteOptions& options) : pictures_(parts) {
+    const TextureShape& shape = pictures_.shape();
+    header_.width = shape.width;
+    header_.height = shape.height;
+    header_.layers = shape.layers;
+    header_.faces = shape.faces;
+    header_.levels.resize(static_cast<std::size_t>(shape.levels));
     static constexpr std::array types{PixelType::float32, PixelType::half, PixelType::rgb9e5,
-                                      PixelType::r11g11b10};
+                                      PixelType::r11g11b10, PixelType::bc6h};
     static const std::array<std::string, 2> known{"none", "zstd"};
     const PixelType type = pixel_type(options, types, "KTX2");
     const bool two =
@@ -133,13 +47,13 @@ class Writer {
     const Colour colour = colour_for(type, options.colour);
     const bool packed = header_.format->packed();
     const std::string holder = packed ? "KTX2 of " + std::string(io::name_of(type)) : "KTX2";
-    for (std::size_t level = 0; level < header_.levels.size(); ++level) {
-      for (std::size_t i = 0; i < pictures_.of_level(); ++i) {
+    for (int level = 0; level < shape.levels; ++level) {
+      for (int i = 0; i < pictures_.of_level(); ++i) {
         const WritePart& picture = pictures_.at(level, i);
         encoders_.emplace_back(type,
                                two ? red_green_order(picture)
                                    : channel_order(picture, packed ? Alpha::none : Alpha::allowed, holder),
-                               colour, two);
+                               colour, two, options.texture_quality);
       }
     }
 
@@ -163,17 +77,21 @@ class Writer {
   /// Rows of a level, counted through all its pictures.
   WriteReport encode_rows(std::size_t level, std::size_t first, std::size_t end, std::byte* out) const {
     constexpr std::size_t kBytesOfTask = 1 << 16;
-    const auto height = static_cast<std::size_t>(header_.height_of(level));
+    const auto height = static_cast<std::size_t>(stored_rows(*header_.format, header_.height_of(level)));
     const std::size_t stride = row_bytes(level), grain = std::max<std::size_t>(1, kBytesOfTask / stride);
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(first, end, grain), WriteReport{},
         [&](const tbb::blocked_range<std::size_t>& rows, WriteReport report) {
           for (std::size_t row = rows.begin(); row < rows.end(); ++row) {
             const std::size_t picture = row / height;
-            const ImageView<const float>& image = pictures_.at(level, picture).image;
-            encoders_[level * pictures_.of_level() + picture].encode(
-                image.row(static_cast<int>(row % height)), image.channels, image.width,
-                out + (row - first) * stride, report);
+            const ImageView<const float>& image =
+                pictures_.at(static_cast<int>(level), static_cast<int>(picture)).image;
+            const TexelEncoder& encoder =
+                encoders_[level * static_cast<std::size_t>(pictures_.of_level()) + picture];
+            const int y = static_cast<int>(row % height) * header_.format->block();
+            const int texel_rows = std::min(header_.format->block(), image.height - y);
+            encoder.encode(image.part(0, y, image.width, texel_rows), {out + (row - first) * stride, stride},
+                           report);
           }
           return report;
         },
@@ -181,10 +99,11 @@ class Writer {
   }
 
   std::size_t row_bytes(std::size_t level) const {
-    return static_cast<std::size_t>(header_.width_of(level)) * header_.format->bytes();
+    return static_cast<std::size_t>(texels::row_bytes(*header_.format, header_.width_of(level)));
   }
   std::size_t rows(std::size_t level) const {
-    return static_cast<std::size_t>(header_.height_of(level)) * pictures_.of_level();
+    return static_cast<std::size_t>(stored_rows(*header_.format, header_.height_of(level))) *
+           static_cast<std::size_t>(pictures_.of_level());
   }
 
   /// Gives the levels, whose stored sizes are known, their offsets, and writes what precedes them.
@@ -253,7 +172,7 @@ class Writer {
   }
 
   Header header_;
-  Pictures pictures_;
+  PictureSet pictures_;
   std::vector<TexelEncoder> encoders_;  ///< one for each picture
   std::vector<std::byte> head_;         ///< descriptor and keys
 };

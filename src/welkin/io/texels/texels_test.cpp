@@ -1,4 +1,4 @@
-#include "welkin/io/ktx2/texels.h"
+#include "welkin/io/texels/texels.h"
 
 #include <gtest/gtest.h>
 #include <half.h>
@@ -12,7 +12,7 @@
 #include "welkin/io/shared_exponent.h"
 #include "welkin/io/small_float.h"
 
-namespace welkin::io::ktx2 {
+namespace welkin::io::texels {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -224,4 +224,4 @@ TEST(TexelEncoder, ClipsAndCounts) {
 }
 
 }  // namespace
-}  // namespace welkin::io::ktx2
+}  // namespace welkin::io::texels

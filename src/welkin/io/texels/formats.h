@@ -7,7 +7,7 @@
 #include "welkin/io/image_file.h"
 
 /// VkFormats, by which KTX2 names the type of its texels. Source: the Vulkan specification, "Formats".
-namespace welkin::io::ktx2 {
+namespace welkin::io::texels {
 
 /// How the bits of a texel are its values.
 enum class Coding {
@@ -16,6 +16,7 @@ enum class Coding {
   doubles,  ///< 64-bit floats
   fields,   ///< integers of a few bits, in one word
   packed,   ///< rgb9e5 or r11g11b10
+  blocks,   ///< bc6h, 4×4 texels at a time
 };
 
 /// A format whose texels are read.
@@ -30,13 +31,16 @@ struct TexelFormat {
   /// Of Coding::fields: from the most significant bit, the name and the number of bits of each,
   /// `A2R10G10B10`.
   std::string_view fields = {};
-  bool is_signed = false;  ///< of Coding::fields
+  bool is_signed = false;  ///< of Coding::fields and Coding::blocks
 
-  bool packed() const { return coding == Coding::packed; }
+  bool packed() const { return is_packed(type); }
+  /// Texels along a side of what is stored together.
+  int block() const { return coding == Coding::blocks ? 4 : 1; }
   /// Whether PixelDecoder decodes its texels as they lie in the file; decode_values makes floats of others.
   bool plain() const { return coding == Coding::plain; }
-  /// Bytes of a texel.
+  /// Bytes of a texel, or of a block.
   std::size_t bytes() const {
+    if (coding == Coding::blocks) return 16;
     const bool one_word = coding == Coding::packed || coding == Coding::fields;
     return one_word ? type_size : channels.size() * type_size;
   }
@@ -45,8 +49,8 @@ struct TexelFormat {
 /// Null when texels of that format are not read.
 const TexelFormat* find_format(std::uint32_t number);
 
-/// The format that pixels of a type are written in: float32 and half with alpha, rgb9e5, r11g11b10; or
+/// The format that pixels of a type are written in: float32 and half with alpha, rgb9e5, r11g11b10, bc6h; or
 /// float32 and half of two channels, R and G.
 const TexelFormat& format_for(PixelType type, bool two_channels = false);
 
-}  // namespace welkin::io::ktx2
+}  // namespace welkin::io::texels

@@ -1,10 +1,10 @@
-#include "welkin/io/ktx2/formats.h"
+#include "welkin/io/texels/formats.h"
 
 #include <algorithm>
 #include <cassert>
 #include <iterator>
 
-namespace welkin::io::ktx2 {
+namespace welkin::io::texels {
 namespace {
 
 constexpr auto kByte = PixelType::uint8, kWord = PixelType::uint16, kHalf = PixelType::half,
@@ -50,6 +50,8 @@ constexpr TexelFormat kRead[] = {{9, kByte, "R", false, Coding::plain, 1},
                                  {121, kFloat, "RGBA", false, Coding::doubles, 8},
                                  {122, PixelType::r11g11b10, "RGB", false, Coding::packed, 4},
                                  {123, PixelType::rgb9e5, "RGB", false, Coding::packed, 4},
+                                 {143, PixelType::bc6h, "RGB", false, Coding::blocks, 1},
+                                 {144, PixelType::bc6h, "RGB", false, Coding::blocks, 1, {}, true},
                                  {1, kByte, "RG", false, Coding::fields, 1, "R4G4", false},
                                  {2, kByte, "RGBA", false, Coding::fields, 2, "R4G4B4A4", false},
                                  {3, kByte, "RGBA", false, Coding::fields, 2, "B4G4R4A4", false},
@@ -79,14 +81,15 @@ const TexelFormat* find_format(std::uint32_t number) {
 
 const TexelFormat& format_for(PixelType type, bool two_channels) {
   constexpr std::uint32_t kHalfRg = 83, kFloatRg = 103, kHalfRgba = 97, kFloatRgba = 109, kB10G11R11 = 122,
-                          kE5B9G9R9 = 123;
+                          kE5B9G9R9 = 123, kBc6hUfloat = 143;
   std::uint32_t number = two_channels ? kFloatRg : kFloatRgba;
   if (type == PixelType::half) number = two_channels ? kHalfRg : kHalfRgba;
   if (type == PixelType::r11g11b10) number = kB10G11R11;
   if (type == PixelType::rgb9e5) number = kE5B9G9R9;
+  if (type == PixelType::bc6h) number = kBc6hUfloat;
   const TexelFormat* format = find_format(number);
   assert(format != nullptr && format->type == type);
   return *format;
 }
 
-}  // namespace welkin::io::ktx2
+}  // namespace welkin::io::texels

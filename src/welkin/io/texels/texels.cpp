@@ -1,4 +1,4 @@
-#include "welkin/io/ktx2/texels.h"
+#include "welkin/io/texels/texels.h"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,9 @@
 #include "welkin/io/colour/transfer.h"
 #include "welkin/io/shared_exponent.h"
 #include "welkin/io/small_float.h"
+#include "welkin/texture/bc6h.h"
 
-namespace welkin::io::ktx2 {
+namespace welkin::io::texels {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "texels are stored as they lie in memory");
@@ -200,13 +201,15 @@ void decode_fields(const TexelFormat& format, const std::byte* stored, int count
 
 }  // namespace
 
-TexelEncoder::TexelEncoder(PixelType type, std::vector<int> order, Colour colour, bool two_channels)
+TexelEncoder::TexelEncoder(PixelType type, std::vector<int> order, Colour colour, bool two_channels,
+                           TextureQuality quality)
     : type_(type),
       texel_bytes_(format_for(type, two_channels).bytes()),
       order_(std::move(order)),
       srgb_(colour == Colour::srgb),
-      two_channels_(two_channels) {
-  const bool packed = type == PixelType::rgb9e5 || type == PixelType::r11g11b10;
+      two_channels_(two_channels),
+      quality_(quality) {
+  const bool packed = is_packed(type);
   assert(packed ? order_.size() == 1 || order_.size() == 3 : !order_.empty());
   static_cast<void>(packed);
   copies_ = type == PixelType::float32 && !srgb_ && order_.size() >= 3;
@@ -269,6 +272,33 @@ void TexelEncoder::encode_two(const float* in, int channels, int count, std::byt
   }
 }
 
+void TexelEncoder::encode(ImageView<const float> rows, std::span<std::byte> out, WriteReport& report) const {
+  if (type_ == PixelType::bc6h) return encode_blocks(rows, out, report);
+  encode(rows.row(0), rows.channels, rows.width, out.data(), report);
+}
+
+void TexelEncoder::encode_blocks(ImageView<const float> rows, std::span<std::byte> out,
+                                 WriteReport& report) const {
+  // Channels in order, encoded, one behind the other.
+  const int channels = static_cast<int>(order_.size());
+  std::vector<float> values(static_cast<std::size_t>(rows.width) * static_cast<std::size_t>(rows.height) *
+                            order_.size());
+  float* value = values.data();
+  for (int y = 0; y < rows.height; ++y) {
+    const float* texel = rows.row(y);
+    for (int x = 0; x < rows.width; ++x, texel += rows.channels) {
+      for (const int channel : order_)
+        *value++ = srgb_ ? static_cast<float>(linear_to_srgb(texel[channel])) : texel[channel];
+    }
+  }
+  const ClampedValues clamped =
+      encode_bc6h({values.data(), rows.width, rows.height, channels, std::ptrdiff_t{rows.width} * channels},
+                  quality_, out);
+  report.above += clamped.above;
+  report.below += clamped.below;
+  report.not_finite += clamped.not_a_number;
+}
+
 void decode_packed(PixelType type, const std::byte* stored, int count, float* rgb) {
   for (int i = 0; i < count; ++i, stored += sizeof(std::uint32_t), rgb += 3) {
     const auto texel = load_native<std::uint32_t>(stored);
@@ -296,10 +326,11 @@ void decode_values(const TexelFormat& format, const std::byte* stored, int count
       return;
     case Coding::fields:
       return decode_fields(format, stored, count, values);
+    case Coding::blocks:
     case Coding::plain:
       break;
   }
   assert(false);
 }
 
-}  // namespace welkin::io::ktx2
+}  // namespace welkin::io::texels

@@ -4,7 +4,7 @@
 #include <string>
 
 /// What texels that are not read are called, and what makes them readable.
-namespace welkin::io::ktx2 {
+namespace welkin::io::texels {
 
 /// `VK_FORMAT_BC7_SRGB_BLOCK`; of one that has no name here, `a VkFormat that has no name here`.
 std::string format_name(std::uint32_t number);
@@ -16,4 +16,4 @@ std::string refusal_of(std::uint32_t number, std::uint32_t colour_model);
 /// The same for the supercompression BasisLZ.
 std::string refusal_of_basis_lz();
 
-}  // namespace welkin::io::ktx2
+}  // namespace welkin::io::texels

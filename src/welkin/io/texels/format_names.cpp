@@ -1,9 +1,9 @@
-#include "welkin/io/ktx2/format_names.h"
+#include "welkin/io/texels/format_names.h"
 
 #include <algorithm>
 #include <string_view>
 
-namespace welkin::io::ktx2 {
+namespace welkin::io::texels {
 namespace {
 
 /// Consecutive formats, without their common `VK_FORMAT_`.
@@ -120,7 +120,6 @@ constexpr std::string_view kDecompress =
 constexpr std::string_view kSfloat = "make it one of R16G16B16A16_SFLOAT or R8G8B8A8_SRGB";
 
 constexpr Family kFamilies[] = {
-    {"BC6H_", "blocks of HDR colours (BC6H)", kDecompress},
     {"BC", "compressed blocks (BC, S3TC)", kDecompress},
     {"ETC2_", "compressed blocks (ETC2)", kDecompress},
     {"EAC_", "compressed blocks (EAC)", kDecompress},
@@ -181,4 +180,4 @@ std::string refusal_of(std::uint32_t number, std::uint32_t colour_model) {
   return texels + " are not read; " + std::string(kSfloat);
 }
 
-}  // namespace welkin::io::ktx2
+}  // namespace welkin::io::texels

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "welkin/base/monitor.h"
+#include "welkin/image/image.h"
+#include "welkin/texture/texture_quality.h"
+
+/// Pictures ↔ blocks of BC6H, the textures of half floats that graphics cards read: 4×4 texels of R G B in 16
+/// bytes, row by row of blocks. docs/textures.md has the errors.
+namespace welkin {
+
+/// Values that a texture can't hold, and what became of them.
+struct ClampedValues {
+  std::uint64_t above = 0;         ///< over 65504, +infinity among them: became 65504
+  std::uint64_t below = 0;         ///< negative, −infinity among them: became 0
+  std::uint64_t not_a_number = 0;  ///< became 0
+
+  ClampedValues& operator+=(const ClampedValues& other);
+};
+
+/// Bytes of a picture's blocks, those at its edges as a whole. Throws Error (bad_request) for sizes below 1.
+std::size_t bc6h_bytes(int width, int height);
+
+/// Encodes the unsigned format: of the first three channels, or of a single one three times. Texels of blocks
+/// beyond the picture's edge are those of the edge. The same bytes whatever the number of threads;
+/// instruction sets may choose differently between encodings that are as good. Throws Error (bad_request) for
+/// pictures of two channels, and for another number of bytes than bc6h_bytes; Cancelled.
+ClampedValues encode_bc6h(ImageView<const float> picture, TextureQuality quality, std::span<std::byte> blocks,
+                          const Monitor& monitor = {});
+
+/// Decodes to R G B, exactly as graphics cards do. Blocks of reserved modes are black. Throws Error
+/// (bad_request) for another number of bytes than bc6h_bytes, and for pictures of other than three channels.
+void decode_bc6h(std::span<const std::byte> blocks, bool is_signed, ImageView<float> picture);
+
+}  // namespace welkin

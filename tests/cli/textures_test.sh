@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Textures: DDS, KTX 1, and BC6H in all that hold it. Chains and cubes come back; what can't be said or stored is refused.
+#
+# textures_test.sh WELKIN
+source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
+
+# error A B [OPTION…]: relative RMSE.
+error() { "$welkin" diff "$@" --json | number relative_rmse; }
+# below NAME VALUE LIMIT
+below() {
+  checks=$((checks + 1))
+  awk -v value="$2" -v limit="$3" 'BEGIN { exit !(value <= limit) }' || fail "$1: $2 is above $3"
+}
+
+must synth room room.exr --size 256
+must bake room.exr chain.ktx2 --size 32
+for name in chain.dds chain.ktx; do
+  must bake room.exr $name --size 32
+  for level in 0 2 5; do below "$name, level $level" "$(error chain.ktx2 $name --level $level)" 0; done
+  must bake room.exr half.$name --size 32 --format rgba16f
+  below "half $name" "$(error chain.ktx2 half.$name)" 1e-3
+  for format in rgb9e5 r11g11b10; do
+    must bake room.exr $format.$name --size 32 --format $format
+    below "$format $name" "$(error chain.ktx2 $format.$name)" 0.02
+  done
+done
+# The metadata of KTX are those of KTX2; DDS has none.
+matches '^  welkin.lobe +ggx$' info chain.ktx --header
+matches '^  parameterization +cube:layers \(a cube texture\)' info chain.dds --header
+matches 'Direct3D 9' info half.chain.dds --header
+
+# Compressed: more search is never worse, and all containers hold the same blocks.
+for quality in fast normal best; do must bake room.exr $quality.ktx2 --size 32 --format bc6h --quality $quality; done
+below "fast" "$(error chain.ktx2 fast.ktx2)" 0.08
+below "best against fast" "$(error chain.ktx2 best.ktx2)" "$(error chain.ktx2 fast.ktx2 | awk '{ print $1 * 1.02 }')"
+for name in blocks.dds blocks.ktx zstd.ktx2; do
+  [[ $name == zstd.ktx2 ]] && more=(--compression zstd) || more=()
+  must bake room.exr $name --size 32 --format bc6h "${more[@]}"
+  below "$name" "$(error normal.ktx2 $name)" 0
+  below "$name, level 4" "$(error normal.ktx2 $name --level 4)" 0
+done
+matches 'R G B of bc6h' info blocks.dds --header
+must convert room.exr odd.ktx2 --type bc6h --size 37x19
+must info odd.ktx2
+
+# Values that BC6H can't hold are clipped and counted.
+must synth sun sun.exr --size 256 --intensity 1e7
+run convert sun.exr sun.dds --type bc6h
+checks=$((checks + 1))
+{ ((status == 0)) && grep -q 'above what the file can hold' "$work/messages"; } || fail "clipping is not told: $(cat "$work/messages")"
+
+refuses 2 "--quality: 'silly' is neither" convert room.exr a.ktx2 --type bc6h --quality silly
+refuses 2 "--quality: '101' is neither" convert room.exr a.jpg --quality 101
+refuses 1 'DDS holds no uint8 pixels' convert room.exr a.dds --type uint8
+refuses 1 'EXR has no pixel type bc6h' convert room.exr a.exr --type bc6h
+head -c 5000 blocks.dds >cut.dds
+refuses 1 'cut.dds: ends early \(byte 5000\)' info cut.dds
+head -c 5000 chain.ktx >cut.ktx
+refuses 1 'cut.ktx: ends early \(byte 5000\)' info cut.ktx
+finish
