@@ -1,6 +1,5 @@
-// The search for a block's encoding. It is over 400 lines because its steps share the block's texels in packs,
-// and are inlined into one loop for each instruction set.
-// set; over 400 lines because splitting them would need a class in several files for each.
+// The search for a block's encoding. It is over 400 lines because its steps share the block's texels in
+// packs, and are inlined into one loop for each instruction set.
 #pragma once
 
 #include <algorithm>

@@ -184,8 +184,8 @@ TEST(Bc6h, KeepsFlatBlocks) {
   }
 }
 
-/// A longer search is never worse by more than the metrics differ. The blocks' colours span up to a fifth of a factor of two
-/// along one line and less beside it, in 16 steps: an error of about a hundredth of that.
+/// A longer search is never worse by more than the metrics differ. The blocks' colours span up to a fifth of
+/// a factor of two along one line and less beside it, in 16 steps: an error of about a hundredth of that.
 TEST(Bc6h, EncodesSmoothPictures) {
   const std::vector<float> texels = smooth_picture(64, 48);
   const double fast = rmsle(texels, coded(texels, 64, 48, TextureQuality::fast));

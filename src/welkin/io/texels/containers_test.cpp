@@ -79,6 +79,60 @@ TEST(TextureContainers, KeepEveryPictureOfEveryKind) {
   }
 }
 
+/// Blocks are those of texture/, whatever the picture's size, and decode as those do.
+TEST(Ktx2, StoresBlocksOfBc6h) {
+  for (const Kind& kind : kKinds) {
+    for (const std::string compression : {"none", "zstd"}) {
+      for (const int channels : {1, 3}) {
+        SCOPED_TRACE(kind.name + " " + compression);
+        const Texture texture(kind.width, kind.height, kind.levels, kind.layers, kind.faces, channels);
+        WriteOptions options;
+        options.type = PixelType::bc6h;
+        options.texture_quality = TextureQuality::fast;
+        options.compression = compression;
+        const Bytes bytes = texture.encoded(options);
+        const auto reader = open(bytes, "a.ktx2");
+        ASSERT_EQ(reader->info().parts.size(), texture.parts().size());
+        for (std::size_t i = 0; i < texture.parts().size(); ++i) {
+          const PartInfo& part = reader->info().parts[i];
+          EXPECT_EQ(part.type, PixelType::bc6h);
+          EXPECT_EQ(part.channels, names_of(3));
+          const ImageView<const float> written = texture.parts()[i].image;
+          std::vector<std::byte> blocks(bc6h_bytes(part.width, part.height));
+          encode_bc6h(written, TextureQuality::fast, blocks);
+          Image expected(part.width, part.height, 3);
+          decode_bc6h(blocks, false, expected.view());
+          const Image image = read_part(*reader, i);
+          for (int y = 0; y < part.height; ++y) {
+            for (int x = 0; x < 3 * part.width; ++x) ASSERT_EQ(image.at(0, y)[x], expected.at(0, y)[x]);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Khronos Data Format Specification 1.3, table of the BC6H descriptors: one sample of 128 bits, model 133,
+/// blocks of 4×4.
+TEST(Ktx2, DescribesBc6h) {
+  const Texture texture(8, 8, 1, 1, 6, 3);
+  WriteOptions options;
+  options.type = PixelType::bc6h;
+  const Bytes bytes = texture.encoded(options);
+  const std::size_t descriptor = word(bytes, 48);
+  EXPECT_EQ(word(bytes, 12), 143u);
+  EXPECT_EQ(word(bytes, 16), 1u);
+  EXPECT_EQ(word(bytes, descriptor), 44u);
+  EXPECT_EQ(word(bytes, descriptor + 12) & 0xff, 133u);
+  EXPECT_EQ(word(bytes, descriptor + 16), 0x0303u);
+  EXPECT_EQ(word(bytes, descriptor + 20), 16u);
+  EXPECT_EQ(word(bytes, descriptor + 28), 127u << 16 | 0x80u << 24);
+  EXPECT_EQ(word(bytes, descriptor + 40), 0x3f800000u);
+  // A level begins at a multiple of its blocks.
+  EXPECT_EQ(long_word(bytes, 80) % 16, 0u);
+  EXPECT_EQ(long_word(bytes, 88), 6u * 4 * 16);
+}
+
 /// A file of one picture by its header's words.
 Bytes dds_of(const std::vector<std::pair<std::size_t, std::uint32_t>>& fields, std::size_t pixels,
              bool modern = false) {
