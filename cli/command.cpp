@@ -231,9 +231,10 @@ LoadedMap ReadFlags::read(const std::string& path) const {
 void WriteFlags::add(CLI::App& command) {
   command.add_option("--to-faces", faces,
                      "Order and quarter turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
-  command.add_option("--type", type,
-                     "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10, bc6h in textures. "
-                     "Default: the format's best");
+  command.add_option(
+      "--type", type,
+      "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10, bc6h in textures. "
+      "Default: the format's best");
   command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")
       ->capture_default_str();
   command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");

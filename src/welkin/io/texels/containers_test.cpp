@@ -29,7 +29,7 @@ std::string message_of(const Bytes& bytes) {
 }
 
 struct Kind {
-  const char* name;
+  std::string name;
   int width, height, levels, layers, faces;
 };
 const std::vector<Kind> kKinds = {{"picture", 5, 3, 1, 1, 1},        {"mips", 13, 6, 4, 1, 1},
