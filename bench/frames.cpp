@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     std::filesystem::create_directories(folder);
     const FrameNames in = frames_in(folder, kind);
     make_frames(in, kind);
-    const auto job = [&](auto work) -> std::function<void()> { return [&kind, &in, work] { work(in); }; };
+    const auto job = [&](auto work) -> std::function<void()> { return [&in, work] { work(in); }; };
     std::vector<Timing> timings(4);
     // Forgetting isn't timed, so rounds are made here.
     constexpr int kRounds = 3;

@@ -20,9 +20,9 @@ namespace {
 
 /// Words of the header, from the magic on.
 namespace at {
-constexpr std::size_t size = 1, flags = 2, height = 3, width = 4, pitch = 5, depth = 6, levels = 7,
-                      reserved = 8, format_size = 19, format_flags = 20, four_cc = 21, bits = 22, masks = 23,
-                      caps = 27, caps2 = 28, dxgi = 32, dimension = 33, misc = 34, layers = 35, misc2 = 36;
+constexpr std::size_t size = 1, flags = 2, height = 3, width = 4, pitch = 5, levels = 7, reserved = 8,
+                      format_size = 19, format_flags = 20, four_cc = 21, bits = 22, masks = 23, caps = 27,
+                      caps2 = 28, dxgi = 32, dimension = 33, misc = 34, layers = 35, misc2 = 36;
 }
 constexpr std::size_t kOldBytes = 128, kModernBytes = 148;
 constexpr std::uint32_t kHeaderSize = 124, kFormatSize = 32;

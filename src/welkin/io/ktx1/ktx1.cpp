@@ -36,8 +36,8 @@ constexpr std::size_t kHeaderBytes = 64;
 
 /// Words of the header.
 namespace at {
-constexpr std::size_t order = 3, type = 4, type_size = 5, format = 6, internal = 7, base = 8, width = 9,
-                      height = 10, depth = 11, layers = 12, faces = 13, levels = 14, key_bytes = 15;
+constexpr std::size_t order = 3, type = 4, format = 6, internal = 7, width = 9, height = 10, depth = 11,
+                      layers = 12, faces = 13, levels = 14, key_bytes = 15;
 }
 
 /// What OpenGL calls the formats of texels. `also` is another glType that writers give.
