@@ -7,6 +7,11 @@
 
 namespace welkin::io {
 
+bool is_alpha_added(const std::map<std::string, std::string>& attributes) {
+  const auto names = attributes.find(kChannelsKey);
+  return names != attributes.end() && ("," + names->second + ",").find(",A,") == std::string::npos;
+}
+
 std::string_view meaning_of_channel(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kMeanings{{{"r", "R"},
                                                                                      {"red", "R"},

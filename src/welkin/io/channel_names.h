@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,9 @@ namespace welkin::io {
 
 /// The attribute that names a map's channels, `R,G,B`, where its file's format may have added others.
 inline constexpr const char* kChannelsKey = "welkin.channels";
+
+/// Whether a file's attributes say that its A is 1 because the map had none.
+bool is_alpha_added(const std::map<std::string, std::string>& attributes);
 
 /// `R`, `G`, `B`, `A`, `Y`, `X` or `Z` by what stands behind the last dot: `diffuse.R`, `r` and `Red` are
 /// `R`, `luminance` is `Y`, `depth` is `Z`. Empty for other names.

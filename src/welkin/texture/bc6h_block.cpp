@@ -152,17 +152,19 @@ std::uint16_t signed_half(int value) {
 
 }  // namespace
 
-bool fits(const Block& block) {
+bool fits(const Block& block, int channel) {
   const Mode& mode = kModeTable[static_cast<std::size_t>(block.mode)];
   if (!mode.differences) return true;
+  const int half = 1 << (mode.other_bits[channel] - 1);
   for (int e = 1; e < 2 * mode.regions; ++e) {
-    for (int c = 0; c < 3; ++c) {
-      const int difference = block.endpoints[e][c] - block.endpoints[0][c],
-                half = 1 << (mode.other_bits[c] - 1);
-      if (difference < -half || difference >= half) return false;
-    }
+    const int difference = block.endpoints[e][channel] - block.endpoints[0][channel];
+    if (difference < -half || difference >= half) return false;
   }
   return true;
+}
+
+bool fits(const Block& block) {
+  return fits(block, 0) && fits(block, 1) && fits(block, 2);
 }
 
 void pack(const Block& block, std::byte* bytes) {

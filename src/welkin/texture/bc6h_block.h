@@ -46,8 +46,11 @@ struct Block {
   std::uint8_t indices[kTexels] = {};
 };
 
-/// Whether the block's differences can be stored.
+/// Whether the block's differences can be stored: of a channel, and of all.
+/// @{
+bool fits(const Block& block, int channel);
 bool fits(const Block& block);
+/// @}
 
 /// The largest value of a half: 65504.
 inline constexpr int kLargestHalf = 0x7bff;

@@ -36,7 +36,7 @@ struct Search {
   bool perturb;    ///< the best one's are moved with the indices chosen again
 };
 
-/// A 4×4 block of halves, R G B each, 0 … kLargestHalf, in the two packs of 16 bytes.
+/// Encodes blocks of 4×4 texels of halves, R G B each, 0 … kLargestHalf, to 16 bytes each.
 using EncodeBlocks = void (*)(const std::uint16_t* halves, std::size_t blocks, const Search& search,
                               std::byte* bytes);
 

@@ -33,7 +33,7 @@ class Encoder {
   explicit Encoder(const Search& search)
       : search_(search), scale_(ErrorScale::get()), masks_(PartitionMasks::get()) {}
 
-  /// A block, its error, and where its texels' indices have room to move.
+  /// A block and its error.
   struct Candidate {
     Block block;
     float error = std::numeric_limits<float>::infinity();
@@ -211,8 +211,8 @@ class Encoder {
     }
   }
 
-  /// Endpoints by least squares for texels' weights 0 … 1, of 16 bits, not rounded.
-  void fit(unsigned second, int regions, const float* share, float (*ends)[3]) const {
+  /// Endpoints of each region by least squares for texels' weights 0 … 1, of 16 bits, not rounded.
+  void fit(int regions, const float* share, float (*ends)[3]) const {
     for (int r = 0; r < regions; ++r) {
       for (int c = 0; c < 3; ++c) {
         Pack aa(0.0f), ab(0.0f), bb(0.0f), ax(0.0f), bx(0.0f);
@@ -242,7 +242,6 @@ class Encoder {
         ends[2 * r + 1][c] = std::clamp(b, 0.0f, 65535.0f);
       }
     }
-    (void)second;
   }
 
   /// The endpoint of a precision that lies nearest.
@@ -403,7 +402,7 @@ class Encoder {
             if (new_a < 0 || new_a > last || new_b < 0 || new_b > last) continue;
             a = new_a;
             b = new_b;
-            const bool possible = channel_fits(block, mode, c);
+            const bool possible = fits(block, c);
             const float error = possible ? binned_error<kRegions>(bins[r], c, a, b, mode.precision)
                                          : std::numeric_limits<float>::max();
             a = old_a;
@@ -421,16 +420,6 @@ class Encoder {
     }
   }
 
-  static bool channel_fits(const Block& block, const Mode& mode, int c) {
-    if (!mode.differences) return true;
-    const int half = 1 << (mode.other_bits[c] - 1);
-    for (int e = 1; e < 2 * mode.regions; ++e) {
-      const int difference = block.endpoints[e][c] - block.endpoints[0][c];
-      if (difference < -half || difference >= half) return false;
-    }
-    return true;
-  }
-
   /// From endpoints to the best that this mode makes of them.
   template <int kRegions>
   void refine(const float (*ends)[3], int mode, int partition, Candidate& best) const {
@@ -444,7 +433,7 @@ class Encoder {
       alignas(64) float share[kTexels];
       shares<kRegions>(next.block, share);
       float fitted[4][3];
-      fit(0, kRegions, share, fitted);
+      fit(kRegions, share, fitted);
       quantize(fitted, next.block);
       if (search_.descend) descend<kRegions>(next.block);
       choose_indices<kRegions>(next);
@@ -472,7 +461,7 @@ class Encoder {
     alignas(64) float share[kTexels];
     project(0, axes, anchors, share);
     float ends[4][3];
-    fit(0, 1, share, ends);
+    fit(1, share, ends);
     // The most precise whose differences suffice, and the one above it.
     Block block;
     int mode = 13;
@@ -496,7 +485,7 @@ class Encoder {
     project(second, axes, anchors, share);
     for (float& each : share) each = std::floor(each * 7 + 0.5f) * (1.0f / 7);
     float ends[4][3];
-    fit(second, 2, share, ends);
+    fit(2, share, ends);
     // From the most precise mode down. One whose differences are too small for the endpoints may still be
     // best: they are compared as texels would be indexed.
     Candidate sorted[10];
@@ -558,7 +547,7 @@ class Encoder {
             Candidate next = best;
             int& value = next.block.endpoints[e][c];
             value += step;
-            if (value < 0 || value > last || !channel_fits(next.block, mode, c)) continue;
+            if (value < 0 || value > last || !fits(next.block, c)) continue;
             choose_indices<kRegions>(next);
             if (next.error < best.error) {
               best = next;

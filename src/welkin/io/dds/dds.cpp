@@ -5,7 +5,6 @@
 #include "welkin/io/encode_pixels.h"
 #include "welkin/io/format.h"
 #include "welkin/io/texels/picture.h"
-#include "welkin/io/write_choices.h"
 
 /// DirectDraw surfaces, the textures of Direct3D: pictures, arrays and cubes with their levels. They carry no
 /// text, so a map's shape and what its levels hold are not in the file.
@@ -73,33 +72,14 @@ std::unique_ptr<FormatReader> open_dds(const Source& source) {
   return std::make_unique<DdsReader>(source);
 }
 
-constexpr PixelType kTypes[] = {PixelType::float32, PixelType::half, PixelType::rgb9e5, PixelType::r11g11b10,
-                                PixelType::bc6h};
-
 WriteReport write_dds(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   const PictureSet pictures(parts);
-  const TextureShape& shape = pictures.shape();
-  const PixelType type = pixel_type(options, kTypes, "DDS");
-  const TexelFormat& format = format_for(type);
-  const Colour colour = colour_for(type, options.colour);
-  if (colour == Colour::srgb)
-    throw Error(ErrorKind::unsupported,
-                "DDS of floats cannot say that its values are sRGB-encoded: write it linear");
-  const std::string holder = is_packed(type) ? "DDS of " + std::string(io::name_of(type)) : "DDS";
-  file.write(written_header(shape, type, has_alpha(parts)));
+  PictureWriter writer(options, "DDS");
+  file.write(written_header(pictures.shape(), writer.type(), has_alpha(parts)));
   WriteReport report;
-  std::vector<std::byte> bytes(static_cast<std::size_t>(picture_bytes(format, shape.width, shape.height)));
   for (int picture = 0; picture < pictures.of_level(); ++picture) {
-    for (int level = 0; level < shape.levels; ++level) {
-      const WritePart& part = pictures.at(level, picture);
-      const TexelEncoder encoder(
-          type, channel_order(part, is_packed(type) ? io::Alpha::none : io::Alpha::allowed, holder), colour,
-          false, options.texture_quality);
-      const std::span<std::byte> out = std::span(bytes).first(
-          static_cast<std::size_t>(picture_bytes(format, part.image.width, part.image.height)));
-      report = report + write_picture(encoder, format, part.image, out);
-      file.write(out);
-    }
+    for (int level = 0; level < pictures.shape().levels; ++level)
+      report = report + writer.write(file, pictures.at(level, picture));
   }
   return report;
 }
@@ -111,7 +91,7 @@ Format dds_format() {
   return {{.format = "dds",
            .title = "DDS",
            .extensions = {"dds"},
-           .types = {std::begin(dds::kTypes), std::end(dds::kTypes)},
+           .types = {std::begin(texels::PictureWriter::kTypes), std::end(texels::PictureWriter::kTypes)},
            .compressions = {"none"},
            .channels = Channels::rgba,
            .pictures = true,

@@ -12,7 +12,6 @@
 #include "welkin/io/format.h"
 #include "welkin/io/texels/picture.h"
 #include "welkin/io/texels/picture_set.h"
-#include "welkin/io/write_choices.h"
 
 /// KTX, version 1: textures as OpenGL takes them. Source: "KTX File Format Specification", version 1
 /// (Khronos).
@@ -128,7 +127,7 @@ class Ktx1Reader final : public FormatReader {
     std::vector<std::string> names;
     for (const char name : std::string_view("RGBA")) {
       const std::size_t found = header_.format->channels.find(name);
-      if (found == std::string_view::npos || (name == 'A' && opaque())) continue;
+      if (found == std::string_view::npos || (name == 'A' && is_alpha_added(info_.attributes))) continue;
       names.emplace_back(1, name);
       stored_.push_back(static_cast<int>(found));
     }
@@ -279,11 +278,6 @@ class Ktx1Reader final : public FormatReader {
     const auto writer = info_.attributes.find("KTXwriter");
     return writer != info_.attributes.end() && writer->second.starts_with("welkin ");
   }
-  /// Whether A is 1 because the map had none.
-  bool opaque() const {
-    const auto names = info_.attributes.find(kChannelsKey);
-    return names != info_.attributes.end() && ("," + names->second + ",").find(",A,") == std::string::npos;
-  }
 
   Source source_;
   Header header_;
@@ -294,9 +288,6 @@ class Ktx1Reader final : public FormatReader {
 std::unique_ptr<FormatReader> open_ktx1(const Source& source) {
   return std::make_unique<Ktx1Reader>(source);
 }
-
-constexpr PixelType kTypes[] = {PixelType::float32, PixelType::half, PixelType::rgb9e5, PixelType::r11g11b10,
-                                PixelType::bc6h};
 
 void append(std::vector<std::byte>& bytes, std::uint32_t word) {
   const auto* first = reinterpret_cast<const std::byte*>(&word);
@@ -328,14 +319,9 @@ std::vector<std::byte> written_keys(const std::map<std::string, std::string>& at
 
 WriteReport write_ktx1(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   const PictureSet pictures(parts);
-  const PixelType type = pixel_type(options, kTypes, "KTX");
-  const Colour colour = colour_for(type, options.colour);
-  if (colour == Colour::srgb)
-    throw Error(ErrorKind::unsupported,
-                "KTX of floats cannot say that its values are sRGB-encoded: write it linear");
-  const std::string holder = is_packed(type) ? "KTX of " + std::string(io::name_of(type)) : "KTX";
+  PictureWriter writer(options, "KTX");
   Header header;
-  header.format = &format_for(type);
+  header.format = &writer.format();
   header.shape = pictures.shape();
   const auto names = std::find_if(std::begin(kNames), std::end(kNames),
                                   [&](const Names& each) { return each.vulkan == header.format->number; });
@@ -356,21 +342,12 @@ WriteReport write_ktx1(ByteSink& file, std::span<const WritePart> parts, const W
   head.insert(head.end(), keys.begin(), keys.end());
   file.write(head);
   WriteReport report;
-  std::vector<std::byte> bytes(static_cast<std::size_t>(padded(header.picture_bytes(0))));
   for (int level = 0; level < header.shape.levels; ++level) {
     const auto size = static_cast<std::uint32_t>(header.image_size(level));
     file.write(&size, sizeof size);
-    for (int picture = 0; picture < pictures.of_level(); ++picture) {
-      const WritePart& part = pictures.at(level, picture);
-      const TexelEncoder encoder(type,
-                                 channel_order(part, is_packed(type) ? Alpha::none : Alpha::allowed, holder),
-                                 colour, false, options.texture_quality);
-      // All texels written are of whole words, so rows and pictures need no padding.
-      const std::span<std::byte> out =
-          std::span(bytes).first(static_cast<std::size_t>(header.picture_bytes(level)));
-      report = report + write_picture(encoder, *header.format, part.image, out);
-      file.write(out);
-    }
+    // All texels written are of whole words, so rows and pictures need no padding.
+    for (int picture = 0; picture < pictures.of_level(); ++picture)
+      report = report + writer.write(file, pictures.at(level, picture));
   }
   return report;
 }
@@ -382,7 +359,7 @@ Format ktx1_format() {
   return {{.format = "ktx",
            .title = "KTX",
            .extensions = {"ktx"},
-           .types = {std::begin(ktx1::kTypes), std::end(ktx1::kTypes)},
+           .types = {std::begin(texels::PictureWriter::kTypes), std::end(texels::PictureWriter::kTypes)},
            .compressions = {"none"},
            .channels = Channels::rgba,
            .pictures = true,

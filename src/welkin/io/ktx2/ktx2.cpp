@@ -96,12 +96,6 @@ class Ktx2Reader final : public FormatReader {
     info_.notes.push_back("its channels are rearranged as KTXswizzle says: " + swizzle);
   }
 
-  /// Whether A is 1 because the map had none.
-  bool is_alpha_added() const {
-    const auto names = info_.attributes.find(kChannelsKey);
-    return names != info_.attributes.end() && ("," + names->second + ",").find(",A,") == std::string::npos;
-  }
-
   /// Which way texels and rows run, `rd` being the way of images here.
   void turn(const std::string& orientation) {
     const std::size_t axes = header_.one_dimensional ? 1 : 2;
@@ -121,7 +115,7 @@ class Ktx2Reader final : public FormatReader {
   void list_parts() {
     std::vector<std::string> names;
     for (const Channel& channel : channels_) names.push_back(channel.name);
-    if (channels_.back().name == "A" && !is_alpha_added())
+    if (channels_.back().name == "A" && !is_alpha_added(info_.attributes))
       declared_.alpha = premultiplied_ ? AlphaKind::associated : AlphaKind::straight;
     list_pictures(header_.shape(), names, header_.format->type, std::string(name_of(header_.scheme)), info_);
   }

@@ -19,15 +19,6 @@ float tolerance(PixelType type, float x, float largest_of_texel) {
   return 0;
 }
 
-struct Kind {
-  std::string name;
-  int width, height, levels, layers, faces;
-};
-
-const std::vector<Kind> kKinds = {{"picture", 5, 3, 1, 1, 1},        {"mips", 13, 6, 4, 1, 1},
-                                  {"array", 4, 2, 1, 3, 1},          {"cube", 8, 8, 1, 1, 6},
-                                  {"cube with mips", 8, 8, 4, 1, 6}, {"array of cubes", 4, 4, 2, 2, 6}};
-
 TEST(Ktx2, KeepsEveryPictureOfEveryKind) {
   using enum PixelType;
   for (const Kind& kind : kKinds) {

@@ -31,6 +31,16 @@ class Texture {
   std::vector<WritePart> parts_;
 };
 
+/// What textures there are.
+struct Kind {
+  std::string name;
+  int width, height, levels, layers, faces;
+};
+
+inline const std::vector<Kind> kKinds = {
+    {"picture", 5, 3, 1, 1, 1}, {"mips", 13, 6, 4, 1, 1},          {"array", 4, 2, 1, 3, 1},
+    {"cube", 8, 8, 1, 1, 6},    {"cube with mips", 8, 8, 4, 1, 6}, {"array of cubes", 4, 4, 2, 2, 6}};
+
 inline Bytes encoded_parts(std::span<const WritePart> parts, const WriteOptions& options = {}) {
   const TemporaryFolder folder;
   write(folder / "texture.ktx2", parts, options);

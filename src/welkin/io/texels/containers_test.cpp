@@ -28,14 +28,6 @@ std::string message_of(const Bytes& bytes) {
   return {};
 }
 
-struct Kind {
-  std::string name;
-  int width, height, levels, layers, faces;
-};
-const std::vector<Kind> kKinds = {{"picture", 5, 3, 1, 1, 1},        {"mips", 13, 6, 4, 1, 1},
-                                  {"array", 4, 2, 1, 3, 1},          {"cube", 8, 8, 1, 1, 6},
-                                  {"cube with mips", 8, 8, 4, 1, 6}, {"array of cubes", 4, 4, 2, 2, 6}};
-
 /// Every container stores the same texels: each picture is the one that KTX2 gives.
 TEST(TextureContainers, KeepEveryPictureOfEveryKind) {
   using enum PixelType;

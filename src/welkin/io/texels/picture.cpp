@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "welkin/base/error.h"
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/encode_pixels.h"
+#include "welkin/io/write_choices.h"
 #include "welkin/texture/bc6h.h"
 
 namespace welkin::io::texels {
@@ -95,6 +97,28 @@ WriteReport write_picture(const TexelEncoder& encoder, const TexelFormat& format
         return report;
       },
       [](const WriteReport& a, const WriteReport& b) { return a + b; }, tbb::simple_partitioner());
+}
+
+PictureWriter::PictureWriter(const WriteOptions& options, std::string_view title)
+    : type_(pixel_type(options, kTypes, title)),
+      format_(&format_for(type_)),
+      colour_(colour_for(type_, options.colour)),
+      quality_(options.texture_quality),
+      holder_(title) {
+  if (colour_ == Colour::srgb)
+    throw Error(ErrorKind::unsupported,
+                holder_ + " of floats cannot say that its values are sRGB-encoded: write it linear");
+  if (is_packed(type_)) holder_ += " of " + std::string(name_of(type_));
+}
+
+WriteReport PictureWriter::write(ByteSink& file, const WritePart& part) {
+  const TexelEncoder encoder(type_,
+                             channel_order(part, is_packed(type_) ? Alpha::none : Alpha::allowed, holder_),
+                             colour_, false, quality_);
+  bytes_.resize(static_cast<std::size_t>(picture_bytes(*format_, part.image.width, part.image.height)));
+  const WriteReport report = write_picture(encoder, *format_, part.image, bytes_);
+  file.write(bytes_);
+  return report;
 }
 
 }  // namespace welkin::io::texels

@@ -3,6 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "welkin/io/image_file.h"
 #include "welkin/io/texels/formats.h"
@@ -36,5 +39,29 @@ void read_picture(const StoredPicture& picture, std::span<const int> channels, I
 /// Encodes all rows to `out`, of picture_bytes.
 WriteReport write_picture(const TexelEncoder& encoder, const TexelFormat& format,
                           ImageView<const float> picture, std::span<std::byte> out);
+
+/// Writes pictures of the float types, for formats that cannot say that values are sRGB-encoded.
+class PictureWriter {
+ public:
+  static constexpr PixelType kTypes[] = {PixelType::float32, PixelType::half, PixelType::rgb9e5,
+                                         PixelType::r11g11b10, PixelType::bc6h};
+
+  /// `title` is the format's, for messages. Throws Error for other types, and for sRGB.
+  PictureWriter(const WriteOptions& options, std::string_view title);
+
+  PixelType type() const { return type_; }
+  const TexelFormat& format() const { return *format_; }
+
+  /// All rows, tightly packed.
+  WriteReport write(ByteSink& file, const WritePart& part);
+
+ private:
+  PixelType type_;
+  const TexelFormat* format_;
+  Colour colour_;
+  TextureQuality quality_;
+  std::string holder_;  ///< what holds only some channels, for messages
+  std::vector<std::byte> bytes_;
+};
 
 }  // namespace welkin::io::texels
