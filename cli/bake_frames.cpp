@@ -9,6 +9,7 @@
 #include <set>
 
 #include "bake_report.h"
+#include "json_text.h"
 #include "progress.h"
 #include "welkin/sequence/bake_frames.h"
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "json_text.h"
 #include "lights_report.h"
 
 namespace welkin::cli {
@@ -87,10 +88,6 @@ ordered_json describe_levels(const BakeLevels& made, const ChainNotes& notes,
     levels.push_back(std::move(level));
   }
   return levels;
-}
-
-void print_json_text(const ordered_json& report) {
-  fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 void BakeReport::print() const {

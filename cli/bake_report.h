@@ -17,8 +17,6 @@ nlohmann::ordered_json describe_bake(const std::string& in, const std::string& o
 /// The levels: sizes, lobes, and methods where there are any.
 nlohmann::ordered_json describe_levels(const BakeLevels& made, const ChainNotes& notes,
                                        const std::vector<PrefilterMethod>& methods);
-/// On standard output.
-void print_json_text(const nlohmann::ordered_json& report);
 
 /// What `bake` reports.
 struct BakeReport {

@@ -1,4 +1,5 @@
 #include "bake_views.h"
+#include "json_text.h"
 
 #include <fmt/core.h>
 
@@ -23,10 +24,6 @@ ordered_json rows_of(const ViewTable& table) {
     rows.push_back(std::vector(table.values.begin() + static_cast<std::ptrdiff_t>(i),
                                table.values.begin() + static_cast<std::ptrdiff_t>(i) + table.levels));
   return rows;
-}
-
-void print_json(const ordered_json& report) {
-  fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 /// The angle of view whose cosine is nearest.
@@ -136,7 +133,7 @@ void BakeViews::run_stack(const Map& source, const BakeLevels& made, const std::
     report["levels"] = levels.size();
     report["lift"] = rows_of(notes.lift);
     report["albedo"] = rows_of(notes.albedo);
-    return print_json(report);
+    return print_json_text(report);
   }
   fmt::print("{}: {} from {} angles, axis {}, {} {}\n", printable(out), printable(notes.brdf),
              notes.view_cosines.size(), notes.axis, levels.size(), levels.size() == 1 ? "level" : "levels");
@@ -185,7 +182,7 @@ void BakeViews::run_sums(const Map& source, const BakeLevels& made, const std::s
       report["look_ups"].push_back(std::move(row));
     }
     report["albedo"] = rows_of(sums.albedo);
-    return print_json(report);
+    return print_json_text(report);
   }
   fmt::print("{}: {} as sums of up to {} of a chain of {}, {} levels, for {} angles and {} roughnesses\n",
              printable(out), printable(sums.brdf), sums.count, chain.chain.notes.lobe,

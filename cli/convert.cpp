@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "energy_report.h"
+#include "json_text.h"
 #include "progress.h"
 #include "sanitize_flags.h"
 #include "welkin/filter/resample.h"
@@ -227,7 +228,7 @@ void Convert::verify_energy(std::vector<Map>& sources, const Written& what) cons
       print_energy(energy);
     }
   }
-  if (json) fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  if (json) print_json_text(all);
   if (!json) fmt::print("{} values clipped\n", clipped);
   if (changed <= kVerifiedChange) return;
   throw Error(ErrorKind::mismatch, out,

@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "energy_report.h"
+#include "json_text.h"
 #include "welkin/base/error.h"
 #include "welkin/measure/compare.h"
 
@@ -30,10 +31,6 @@ struct Diff {
   /// Throws when the error is above fail_above.
   void check_error(const Comparison& result, const std::string& where) const;
 };
-
-void print_json(const ordered_json& report) {
-  fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
-}
 
 ordered_json json_of(const ErrorMeasures& e) {
   const auto direction = [](const Vec3d& d) { return ordered_json{d.x, d.y, d.z}; };
@@ -95,7 +92,7 @@ void Diff::compare_maps(const Map& reference, const Map& other, const CompareOpt
   if (json) {
     ordered_json report{{"a", a}, {"b", b}};
     add_json(report, result);
-    print_json(report);
+    print_json_text(report);
   } else {
     for (const ErrorMeasures& channel : result.channels) print(channel);
     print(result.all);
@@ -121,7 +118,7 @@ void Diff::compare_chains(MapReader& reference, MapReader& other, const CompareO
     report["levels"].push_back(std::move(entry));
   }
   end_progress();
-  if (json) print_json(report);
+  if (json) print_json_text(report);
   if (!json && levels_a != levels_b)
     fmt::print("{} has {} levels, {} has {}: the others are not compared\n", a, levels_a, b, levels_b);
   for (std::size_t level = 0; level < results.size(); ++level) {

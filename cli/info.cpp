@@ -8,6 +8,7 @@
 #include "command.h"
 #include "energy_report.h"
 #include "hints.h"
+#include "json_text.h"
 #include "welkin/base/listed.h"
 #include "welkin/map_file/safety_border.h"
 #include "welkin/measure/energy.h"
@@ -323,10 +324,7 @@ void Info::run() const {
     }
     all.push_back(std::move(report));
   }
-  if (json)
-    fmt::print(
-        "{}\n",
-        (files.size() == 1 ? all[0] : all).dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  if (json) print_json_text(files.size() == 1 ? all[0] : all);
 }
 
 }  // namespace

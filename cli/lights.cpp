@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "json_text.h"
 #include "lights_report.h"
 #include "progress.h"
 #include "sanitize_flags.h"
@@ -179,11 +180,9 @@ void Lights::run() {
   }
   end_progress();
   const Extraction* found = extraction ? &*extraction : nullptr;
-  const auto json_text = [&] {
-    return report(set, found, world).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-  };
+  const auto as_json = [&] { return json_text(report(set, found, world)); };
   if (!out.empty()) {
-    write_text(out, text_format ? light_text(*text_format, set, unit) : json_text());
+    write_text(out, text_format ? light_text(*text_format, set, unit) : as_json());
   }
   if (!residual.empty()) {
     fit_channels_to(extraction->residual, residual, write_options);
@@ -192,7 +191,7 @@ void Lights::run() {
   if (out.empty() && text_format) {
     fmt::print("{}", light_text(*text_format, set, unit));
   } else if (json || (out.empty() && target == "json")) {
-    fmt::print("{}", json_text());
+    fmt::print("{}", as_json());
   } else {
     print(set, found, world);
   }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "json_text.h"
 #include "lut_file.h"
 #include "welkin/base/number_text.h"
 #include "welkin/brdf/engine_tables.h"
@@ -150,7 +151,7 @@ void Lut::run() {
   report["type"] = stored.type;
   report["rounding_error"] = stored.error;
   report["clipped"] = stored.report.above + stored.report.below + stored.report.not_finite;
-  if (json) return fmt::print("{}\n", report.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  if (json) return print_json_text(report);
   std::string what = kind;
   if (report.contains("channels")) {
     for (const auto& channel : report["channels"]) what += " " + channel.get<std::string>();

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "json_text.h"
 #include "plot.h"
 #include "welkin/plot/draw_density.h"
 #include "welkin/plot/draw_distortion.h"
@@ -58,7 +59,7 @@ void PlotDensity::run() const {
                  report.ratio, report.unbounded ? "unbounded" : fmt::format("{:.4f}", report.limit_ratio));
     }
   }
-  if (json) fmt::print("{}\n", (of.empty() ? all : all[0]).dump(2));
+  if (json) print_json_text(of.empty() ? all : all[0]);
 }
 
 struct PlotMips {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json_text.h"
 #include "plot.h"
 #include "welkin/math/scalar.h"
 #include "welkin/plot/draw_fresnel.h"
@@ -57,7 +58,7 @@ void PlotFresnel::run() const {
                     {"degrees_60", at(b, 60)},
                     {"degrees_80", at(b, 80)}});
   }
-  if (json) fmt::print("{}\n", list.dump(2));
+  if (json) print_json_text(list);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "json_text.h"
 #include "plot.h"
 #include "welkin/base/number_text.h"
 #include "welkin/lobe/energy.h"
@@ -88,7 +89,7 @@ void print_json(const std::vector<Facts>& all) {
                     {"degrees_holding_99_percent", f.holding[2]},
                     {"zonal", f.zonal}});
   }
-  fmt::print("{}\n", list.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  print_json_text(list);
 }
 
 void PlotLobe::run() {

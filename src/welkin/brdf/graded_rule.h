@@ -6,10 +6,6 @@
 
 namespace welkin::brdf {
 
-/// The rule of `count` nodes, 2…kMostNodes, made when it is first asked for. Safe from many threads.
-const QuadratureRule& gauss_rule(int count);
-inline constexpr int kMostNodes = 256;
-
 /// Calls visit(x, weight) for nodes of a quadrature over x = 0…length of functions that vary over distances
 /// of about x + scale: x = scale · sinh u makes them vary evenly. Exact to about 1e-10 for functions with
 /// singularities at ±i·scale.

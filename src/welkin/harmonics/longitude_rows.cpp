@@ -63,7 +63,7 @@ void RowFactors::of_row(int row, double* out) const {
   const double waves = (recurrence_.degree + 2) * angle;
   int nodes = std::min(kMostNodes, kFewestNodes + static_cast<int>(std::ceil(0.75 * waves)));
   if (row == 0 || row == size_.height - 1) nodes = std::max(nodes, kPoleNodes);
-  const QuadratureRule rule = gauss_legendre(nodes);
+  const QuadratureRule& rule = gauss_rule(nodes);
   for (std::size_t k = 0; k < rule.nodes.size(); ++k)
     add_node(top + high * (0.5 + 0.5 * rule.nodes[k]), 0.5 * high * rule.weights[k], out);
 }

@@ -9,6 +9,7 @@
 #include "welkin/harmonics/texel_harmonics.h"
 #include "welkin/harmonics/texel_quadrature.h"
 #include "welkin/map/borders.h"
+#include "welkin/map/luminance.h"
 
 namespace welkin::harmonics {
 namespace {
@@ -43,15 +44,6 @@ bool is_finite(std::span<const double> values) {
   throw Error(ErrorKind::bad_value, std::to_string(faults) + " of " + std::to_string(texels) +
                                         (faults == 1 ? " texels is" : " texels are") +
                                         " NaN or infinite, the first in " + first);
-}
-
-/// The channels that are radiance.
-std::vector<int> radiance_channels(const Map& map) {
-  std::vector<int> channels;
-  for (int c = 0; c < map.channels(); ++c) {
-    if (map.channel_names[static_cast<std::size_t>(c)] != "A" || map.channels() == 1) channels.push_back(c);
-  }
-  return channels;
 }
 
 SphericalHarmonics chosen(const SphericalHarmonics& all, const std::vector<int>& channels,
@@ -112,7 +104,7 @@ SphericalHarmonics corrected(const TexelHarmonics& texels, const SphericalHarmon
 SphericalHarmonics project(const Map& map, int degree, const Monitor& monitor) {
   map.check();
   require(degree >= 0 && degree <= kMaxDegree, "spherical harmonics have degrees 0 to 96");
-  const std::vector<int> channels = radiance_channels(map);
+  const std::vector<int> channels = light_channels(map.channel_names);
   const auto texels = make_texel_harmonics(map, degree);
   const SphericalHarmonics all = texels->analyse(map, monitor);
   const SphericalHarmonics result = chosen(all, channels, map.channel_names);

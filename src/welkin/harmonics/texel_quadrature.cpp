@@ -66,7 +66,7 @@ void TexelQuadrature::corners(int chart, int y, std::vector<Vec3d>& directions) 
 void TexelQuadrature::append_product(const ChartCell& cell, int nodes,
                                      std::vector<TexelPoint>& points) const {
   if (nodes == 2) return append_gauss_points(p_, cell, points);
-  const QuadratureRule rule = gauss_legendre(nodes);
+  const QuadratureRule& rule = gauss_rule(nodes);
   for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
       const double u = cell.u + cell.width * (0.5 + 0.5 * rule.nodes[i]),

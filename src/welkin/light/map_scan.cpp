@@ -8,14 +8,6 @@
 
 namespace welkin {
 
-std::vector<int> light_channels(const std::vector<std::string>& names) {
-  std::vector<int> channels;
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    if (names[c] != "A" || names.size() == 1) channels.push_back(static_cast<int>(c));
-  }
-  return channels;
-}
-
 MapScan::MapScan(const Map& map, const Monitor& monitor)
     : map_(map),
       luminance_(map.channel_names),

@@ -12,9 +12,6 @@
 /// One pass over a map: what it adds up to, and where it is bright. Internal to light.
 namespace welkin {
 
-/// The channels that are light: all but A, unless there is no other.
-std::vector<int> light_channels(const std::vector<std::string>& names);
-
 class MapScan {
  public:
   /// Throws Error (bad_value) for values of valid texels that aren't finite; Cancelled.

@@ -7,6 +7,15 @@
 
 namespace welkin {
 
+/// The channels that are light: all but A, unless there is no other.
+inline std::vector<int> light_channels(const std::vector<std::string>& names) {
+  std::vector<int> channels;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (names[c] != "A" || names.size() == 1) channels.push_back(static_cast<int>(c));
+  }
+  return channels;
+}
+
 /// Luminance of a texel by its channels' names: ITU-R BT.709 weights for R, G, B; without these the channel
 /// Y, or the first.
 class TexelLuminance {

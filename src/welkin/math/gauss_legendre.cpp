@@ -1,7 +1,9 @@
 #include "welkin/math/gauss_legendre.h"
 
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <mutex>
 
 #include "welkin/math/scalar.h"
 
@@ -38,6 +40,16 @@ QuadratureRule gauss_legendre(int count) {
     rule.weights.push_back(2 / ((1 - x * x) * slope * slope));
   }
   return rule;
+}
+
+const QuadratureRule& gauss_rule(int count) {
+  constexpr std::size_t kSlots = kMostGaussNodes + 1;
+  static std::array<std::once_flag, kSlots> made;
+  static std::array<QuadratureRule, kSlots> rules;
+  assert(count >= 2 && count <= kMostGaussNodes);
+  const auto slot = static_cast<std::size_t>(count);
+  std::call_once(made[slot], [&] { rules[slot] = gauss_legendre(count); });
+  return rules[slot];
 }
 
 }  // namespace welkin

@@ -12,4 +12,8 @@ struct QuadratureRule {
 /// Gauss–Legendre: exact for polynomials of degree 2·count − 1.
 QuadratureRule gauss_legendre(int count);
 
+/// The same, 2 … kMostGaussNodes, made when it is first asked for. Safe from many threads.
+const QuadratureRule& gauss_rule(int count);
+inline constexpr int kMostGaussNodes = 256;
+
 }  // namespace welkin
