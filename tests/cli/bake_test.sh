@@ -161,7 +161,7 @@ bake studio.exr list.ktx2 --size 64 --roughness 0.5
 near "one lobe is a list of one" "$(sample_along rough.exr 1,2,3)" "$(sample_along list.ktx2 1,2,3)" 1e-4
 bake studio.exr sheen.ktx2 --lobe charlie --size 64 --json
 near "charlie has no mirror" "$(all roughness | cut -d ' ' -f 1)" 0.0833333 1e-6
-for curve in filament unity unreal three.js godot; do
+for curve in filament unity unreal three.js three.js-r186 godot babylon playcanvas cesium bevy; do
   bake studio.exr curve.ktx2 --size 32 --roughness $curve
   matches "^  welkin.roughness-curve +$curve\$" info curve.ktx2 --header
 done

@@ -22,20 +22,23 @@ double share(double level, int last) {
   return last > 0 ? level / last : 0;
 }
 
+double from_share(double roughness, int last) {
+  return roughness * last;
+}
+
+/// The r of x = r (2 − r), 1 − √(1 − x), without the difference.
+double of_square(double x) {
+  return x / (1 + std::sqrt(std::max(1 - x, 0.0)));
+}
+
 double three_js_size(double roughness);
 double three_js_roughness(double size);
 
 constexpr Curve kCurves[] = {
-    {"linear", "roughness = x", "glTF-Sample-Viewer, among others",
-     [](double level, int last) { return share(level, last); },
-     [](double roughness, int last) { return roughness * last; }},
+    {"linear", "roughness = x", "glTF-Sample-Viewer, among others", share, from_share},
     {"filament", "x = r (2 − r)",
      "Filament: perceptualRoughnessToLod, and lodToPerceptualRoughness of its filter",
-     // r = 1 − √(1 − x), without the difference.
-     [](double level, int last) {
-       const double x = share(level, last);
-       return x / (1 + std::sqrt(std::max(1 - x, 0.0)));
-     },
+     [](double level, int last) { return of_square(share(level, last)); },
      [](double roughness, int last) { return last * roughness * (2 - roughness); }},
     {"unity", "x = r (1.7 − 0.7 r)",
      "Unity: PerceptualRoughnessToMipmapLevel of ImageBasedLighting.hlsl, which has 7 levels",
@@ -48,18 +51,33 @@ constexpr Curve kCurves[] = {
      "Unreal Engine: ComputeReflectionCaptureMipFromRoughness of ReflectionEnvironmentShared",
      [](double level, int last) { return std::min(1.0, std::exp2((level - (last - 2)) / 1.2)); },
      [](double roughness, int last) { return last - 2 + 1.2 * std::log2(std::max(roughness, 1e-3)); }},
-    {"three.js", "by level = last − 2 − m: m = −2 log2(1.16 r), below r 0.21; then by a table to 1 at m = −2",
-     "three.js: roughnessToMip of cube_uv_reflection_fragment, PMREMGenerator",
+    {"three.js", "x = r (2 − r), since r187; before: three.js-r186",
+     "three.js: PMREMGenerator, lodToRoughness and its inverse in the look-up",
+     [](double level, int last) { return of_square(share(level, last)); },
+     [](double roughness, int last) { return last * roughness * (2 - roughness); }},
+    {"three.js-r186",
+     "by level = last − 2 − m: m = −2 log2(1.16 r), below r 0.21; then by a table to 1 at m = −2",
+     "three.js up to r186: roughnessToMip of cube_uv_reflection_fragment, PMREMGenerator",
      [](double level, int last) { return three_js_roughness(last - 2 - level); },
      [](double roughness, int last) { return last - 2 - three_js_size(roughness); }},
     {"godot", "x = √r",
      "Godot 4: the look-up of scene_forward_clustered and sky radiance, √roughness · MAX_ROUGHNESS_LOD",
      [](double level, int last) { return share(level, last) * share(level, last); },
      [](double roughness, int last) { return last * std::sqrt(roughness); }},
+    {"babylon", "level = 0.8 log2(N r²), N = 2^last; 1 beyond, for chains down to 1×1",
+     "Babylon.js: getLodFromAlphaG, and lodGenerationScale 0.8 of its textures",
+     [](double level, int last) { return std::min(1.0, std::exp2((level / 0.8 - last) / 2)); },
+     [](double roughness, int last) { return 0.8 * (last + 2 * std::log2(std::max(roughness, 1e-9))); }},
+    {"playcanvas", "r = level / 5; 1 beyond, for six levels", "PlayCanvas: reflectionEnv, calcReflection",
+     [](double level, int) { return std::min(1.0, level / 5); },
+     [](double roughness, int) { return 5 * roughness; }},
+    {"cesium", "roughness = x", "Cesium: ImageBasedLightingStageFS, sampleSpecularEnvironment", share,
+     from_share},
+    {"bevy", "roughness = x", "Bevy: environment_map, compute_radiances", share, from_share},
 };
 
-// three.js counts m, the binary logarithm of a level's face size, and continues below its smallest face of 16
-// with levels of that size: m = 3 … −2.
+// Up to r186 three.js counts m, the binary logarithm of a level's face size, and continues below its smallest
+// face of 16 with levels of that size: m = 3 … −2.
 struct Knot {
   double roughness, size;
 };
@@ -100,9 +118,9 @@ std::vector<double> parse_list(std::string_view text) {
     if (!value || !(*value >= 0 && *value <= 1)) {
       throw Error(ErrorKind::bad_request, "the roughness '" + item + "' is not a number in 0…1");
     }
-    if (!list.empty() && !(*value > list.back())) {
+    if (!list.empty() && *value < list.back()) {
       throw Error(ErrorKind::bad_request,
-                  "the roughness " + item + " is not above the one before, " + number_text(list.back()));
+                  "the roughness " + item + " is below the one before, " + number_text(list.back()));
     }
     list.push_back(*value);
     if (comma == std::string_view::npos) return list;

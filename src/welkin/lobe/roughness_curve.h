@@ -15,9 +15,8 @@ namespace welkin::lobe {
 /// read there.
 class WELKIN_API RoughnessCurve {
  public:
-  /// `linear`, `filament`, `unity`, `unreal`, `three.js`, `godot`, or a list: `0,0.1,0.5`. Throws Error:
-  /// unknown names (the nearest is suggested), a list with what isn't a number of 0 … 1, or that doesn't
-  /// ascend.
+  /// One of roughness_curve_names, or a list: `0,0.1,0.5,1,1`. Throws Error: unknown names (the nearest is
+  /// suggested), a list with what isn't a number of 0 … 1, or that falls somewhere.
   static RoughnessCurve from_name(std::string_view text);
 
   /// What from_name takes to get this one again.
@@ -31,7 +30,8 @@ class WELKIN_API RoughnessCurve {
   /// Roughness at a level, a real number and not NaN, clamped to 0 … levels − 1; between two levels of a list
   /// it is linear. Never falls as the level grows. Throws Error when there is a list, and it is for another
   /// number of levels; `levels` is at least 1. A chain of one level is at roughness 0, or what the list has;
-  /// of unreal and three.js at 1.
+  /// of unreal, three.js-r186 and babylon at 1. `playcanvas` ends below 1 when there are fewer than six
+  /// levels.
   double roughness(double level, int levels) const;
   /// The inverse, clamped to 0 … levels − 1. Where several levels have the roughness, the first. Throws Error
   /// like `roughness`, and for a roughness outside 0 … 1.

@@ -35,7 +35,8 @@ TEST(RoughnessCurve, NeverFallsAndStaysWithinOne) {
         EXPECT_LE(roughness, 1) << curve.text() << level;
         before = roughness;
       }
-      EXPECT_TRUE(before == 1 || levels == 1) << curve.text() << levels;
+      const bool ends_early = curve.text() == "playcanvas" && levels < 6;
+      EXPECT_TRUE(before == 1 || levels == 1 || ends_early) << curve.text() << levels;
     }
   }
 }
@@ -53,7 +54,7 @@ TEST(RoughnessCurve, LevelIsTheInverseOfRoughness) {
       EXPECT_NEAR(curve.level_of(roughness, 9), level, 1e-12) << curve.text();
       ++compared;
     }
-    EXPECT_GT(compared, 500) << curve.text();
+    EXPECT_GT(compared, 490) << curve.text();
   }
 }
 
@@ -72,11 +73,22 @@ TEST(RoughnessCurve, HasTheEnginesFigures) {
   EXPECT_EQ(roughness("unreal", 5, 8), 1);
   EXPECT_NEAR(roughness("unreal", 5 - 1.2, 8), 0.5, 1e-12);
   EXPECT_EQ(roughness("unreal", 7, 8), 1);
-  // three.js documents the least roughness of faces of 256 as 0.054 and of 16 as 0.21.
-  EXPECT_NEAR(roughness("three.js", 0, 11), 0.054, 5e-4);
-  EXPECT_EQ(roughness("three.js", 4, 11), 0.21);
-  EXPECT_NEAR(roughness("three.js", 7, 11), 0.4 + 0.4 / 3, 1e-12);
-  EXPECT_EQ(roughness("three.js", 10, 11), 1);
+  // three.js up to r186 documents the least roughness of faces of 256 as 0.054 and of 16 as 0.21.
+  EXPECT_NEAR(roughness("three.js-r186", 0, 11), 0.054, 5e-4);
+  EXPECT_EQ(roughness("three.js-r186", 4, 11), 0.21);
+  EXPECT_NEAR(roughness("three.js-r186", 7, 11), 0.4 + 0.4 / 3, 1e-12);
+  EXPECT_EQ(roughness("three.js-r186", 10, 11), 1);
+  // Since r187: its filter's levels of 256 … 8, 1 − √(1 − x).
+  for (int level = 0; level < 6; ++level)
+    EXPECT_NEAR(roughness("three.js", level, 6), 1 - std::sqrt(1 - level / 5.0), 1e-15);
+  // Babylon.js reads faces of N at 0.8 log2(N α), α = r².
+  for (const double r : {0.2, 0.5, 0.9})
+    EXPECT_NEAR(RoughnessCurve::from_name("babylon").level_of(r, 8), 0.8 * std::log2(128 * r * r), 1e-12);
+  EXPECT_EQ(roughness("babylon", 6, 8), 1);
+  EXPECT_NEAR(roughness("playcanvas", 2, 6), 0.4, 1e-15);
+  EXPECT_EQ(roughness("playcanvas", 7, 8), 1);
+  EXPECT_EQ(roughness("cesium", 2, 9), 0.25);
+  EXPECT_EQ(roughness("bevy", 2, 9), 0.25);
   // Godot reads a roughness of 0.25 in the middle.
   EXPECT_EQ(RoughnessCurve::from_name("godot").level_of(0.25, 9), 4);
   EXPECT_EQ(roughness("linear", 2, 9), 0.25);
@@ -89,6 +101,12 @@ TEST(RoughnessCurve, GivesAListsOwnLevels) {
   EXPECT_NEAR(list.level_of(0.4, 3), 1.5, 1e-12);
   EXPECT_EQ(list.level_of(0, 3), 0);
   EXPECT_EQ(list.level_of(1, 3), 2);
+  // Levels that end at a surface's roughness several times, as engines pad them: the first is read.
+  const RoughnessCurve padded = RoughnessCurve::from_name("0,0.5,1,1,1");
+  EXPECT_EQ(padded.roughness_of_levels(5), (std::vector<double>{0, 0.5, 1, 1, 1}));
+  EXPECT_EQ(padded.level_of(1, 5), 2);
+  EXPECT_EQ(RoughnessCurve::from_name("0,0,1").level_of(0, 3), 0);
+  EXPECT_EQ(RoughnessCurve::from_name("0,0.5,0.5,1").level_of(0.75, 4), 2.5);
   EXPECT_EQ(RoughnessCurve::from_name("0.5").roughness_of_levels(1), (std::vector<double>{0.5}));
 }
 
@@ -105,7 +123,7 @@ TEST(RoughnessCurve, RefusesWhatIsNoCurve) {
   for (const char* text : {"", "0,", ",1", "0,x", "0,nan,1"}) EXPECT_NE(message(text), "made") << text;
   EXPECT_NE(message("0,1.5").find("'1.5' is not a number in 0…1"), std::string::npos);
   EXPECT_NE(message("-0.1,1").find("is not a number in 0…1"), std::string::npos);
-  EXPECT_NE(message("0,0.5,0.5").find("is not above the one before"), std::string::npos);
+  EXPECT_NE(message("0,0.5,0.4").find("is below the one before"), std::string::npos);
   const RoughnessCurve list = RoughnessCurve::from_name("0,1");
   EXPECT_THROW(list.roughness_of_levels(3), Error);
   EXPECT_THROW(list.level_of(0.5, 1), Error);
