@@ -67,7 +67,7 @@ const std::map<std::string, std::function<void()>>& lists() {
       {"curves", list_curves},
       {"conventions",
        [] {
-         for (const auto& c : conventions()) fmt::print("{:<16} {}\n", c.name, c.description);
+         for (const auto& c : conventions()) fmt::print("{:<20} {}\n", c.name, c.description);
        }},
       {"filters",
        [] {

@@ -98,11 +98,16 @@ unreal|0,0,-1|1,0,0|x z y
 pbrt|-1,0,0|0,0,-1|x y z
 debevec|0,0,-1|1,0,0|x y z
 left-handed|0,0,-1|1,0,0|x y -z
+babylon|0,0,1|-1,0,0|-x y z
+babylon-right-handed|0,0,-1|1,0,0|x y -z
+playcanvas|0,0,1|-1,0,0|-x y z
+cesium|0,0,1|-1,0,0|z y -x
+bevy|0,0,1|-1,0,0|x y -z
 END
 
 "$welkin" list conventions | awk '{ print $1 }' >names
 checks=$((checks + 1))
-[[ $(wc -l <names) == 13 ]] || fail "a convention is missing in this test: $(tr '\n' ' ' <names)"
+[[ $(wc -l <names) == 18 ]] || fail "a convention is missing in this test: $(tr '\n' ' ' <names)"
 
 # debevec turns angular maps, too; no preset turns the photograph of a ball.
 name=debevec

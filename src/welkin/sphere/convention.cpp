@@ -68,6 +68,23 @@ std::vector<Convention> make_conventions() {
       {"left-handed", "a left-handed world, +Y up, our −Z is its +Z; its +Z at the centre of a lat-long",
        centred_on(kMinusZ), axes(kPlusX, kPlusY, kMinusZ), identity, axes(kPlusX, kPlusY, kMinusZ),
        "docs/conventions.md"},
+      {"babylon",
+       "Babylon.js in its default left-handed scene (+Y up, our +X is its −X): lat-longs, cube maps, .env",
+       identity, x_reversed, identity, x_reversed,
+       "Babylon.js, Misc/HighDynamicRange/panoramaToCubemap.ts, CalcProjectionSpherical; ShadersInclude/"
+       "reflectionFunction.fx, computeCubicCoords; glTF loader, coordinate system AUTO"},
+      {"babylon-right-handed", "Babylon.js with scene.useRightHandedSystem: lat-longs, cube maps, .env",
+       centred_on(kMinusZ), axes(kPlusX, kPlusY, kMinusZ), identity, identity,
+       "as babylon; reflectionFunction.fx's REFLECTIONMAP_OPPOSITEZ reverses z"},
+      {"playcanvas", "PlayCanvas lat-longs and atlases, and cube maps, whose look-up reverses x", identity,
+       x_reversed, identity, identity,
+       "PlayCanvas, shader-lib/glsl/chunks, reflectionEnv.js, reflectionCube.js and spherical.js"},
+      {"cesium", "Cesium cube maps of a model's own frame (right-handed, +Z up, our +Z is its +X)", identity,
+       axes(kPlusZ, kPlusY, kMinusX), identity, axes(kPlusZ, kPlusX, kPlusY),
+       "Cesium, Scene/Model/Model.js, iblReferenceFrameMatrix; Scene/Axis.js, Z_UP_TO_X_UP and Y_UP_TO_Z_UP"},
+      {"bevy", "Bevy cube maps (right-handed, +Y up), whose look-up reverses z", identity,
+       axes(kPlusX, kPlusY, kMinusZ), identity, identity,
+       "Bevy, crates/bevy_pbr/src/light_probe/environment_map.wesl, compute_radiances"},
   };
 }
 

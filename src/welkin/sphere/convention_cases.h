@@ -85,6 +85,26 @@ inline Position left_handed(const Vec3d& d) {
   return around(d.x, d.z, d.y);
 }
 
+/// A lat-long becomes a cube texture: the texel at look-up coordinates c of its face shows what lies along
+/// (c.z, c.y, c.x), by the corners of the faces, of which longitude is atan2(z, x).
+inline Position babylon(const Vec3d& c) {
+  const Vec3d along{c.z, c.y, c.x};
+  return {std::atan2(along.z, along.x) / (2 * kPi) + 0.5, std::acos(along.y) / kPi};
+}
+/// toSphericalUv of a direction whose x was reversed.
+inline Position playcanvas(const Vec3d& d) {
+  return {std::atan2(-d.x, d.z) / (2 * kPi) + 0.5, 1 - (std::asin(d.y) / kPi + 0.5)};
+}
+/// A glTF model's axes: ahead from +Z to +X, then up from +Y to +Z.
+inline Vec3d cesium_from_native(const Vec3d& d) {
+  const Vec3d ahead{d.z, d.y, -d.x};
+  return {ahead.x, -ahead.z, ahead.y};
+}
+/// The frame of a model, Z up, to the cube's, Y up.
+inline Vec3d cesium_cube(const Vec3d& d) {
+  return {d.x, d.z, -d.y};
+}
+
 /// Blender and pbrt have no cube maps, and their `lookup` is native: their world's direction, taken back.
 const Program kPrograms[] = {
     {"native", same, openexr, same, 1},
@@ -104,6 +124,16 @@ const Program kPrograms[] = {
     {"pbrt", y_and_z_swapped, pbrt, y_and_z_swapped, 1},
     {"debevec", same, debevec, same, 1},
     {"left-handed", reversed_z, left_handed, same, -1},
+    {"babylon", reversed_x, babylon, same, -1},
+    {"babylon-right-handed", same, [](const Vec3d& d) { return babylon(reversed_z(d)); }, reversed_z, -1},
+    {"playcanvas", same, playcanvas, reversed_x, -1},
+    // Without lat-longs, which are native.
+    {"cesium", cesium_from_native,
+     [](const Vec3d& d) {
+       return openexr({d.y, d.z, d.x});
+     },
+     cesium_cube, 1},
+    {"bevy", same, openexr, reversed_z, -1},
 };
 
 inline const AnyParameterization& latlong() {

@@ -73,11 +73,13 @@ TEST(Convention, TableOfAxesHolds) {
     Vec3d centre, right;
   };
   const Vec3d x{1, 0, 0}, minus_x{-1, 0, 0}, z{0, 0, 1}, minus_z{0, 0, -1};
-  const Axes table[] = {{"native", z, minus_x},     {"openexr", z, minus_x},    {"usd", z, minus_x},
-                        {"mitsuba", z, minus_x},    {"godot", z, minus_x},      {"filament", z, minus_x},
-                        {"three.js", x, z},         {"blender", x, z},          {"unity", minus_x, minus_z},
-                        {"unreal", minus_z, x},     {"pbrt", minus_x, minus_z}, {"debevec", minus_z, x},
-                        {"left-handed", minus_z, x}};
+  const Axes table[] = {
+      {"native", z, minus_x},      {"openexr", z, minus_x},    {"usd", z, minus_x},
+      {"mitsuba", z, minus_x},     {"godot", z, minus_x},      {"filament", z, minus_x},
+      {"three.js", x, z},          {"blender", x, z},          {"unity", minus_x, minus_z},
+      {"unreal", minus_z, x},      {"pbrt", minus_x, minus_z}, {"debevec", minus_z, x},
+      {"left-handed", minus_z, x}, {"babylon", z, minus_x},    {"babylon-right-handed", minus_z, x},
+      {"playcanvas", z, minus_x},  {"cesium", z, minus_x},     {"bevy", z, minus_x}};
   ASSERT_EQ(std::size(table), conventions().size());
   for (const Axes& each : table) {
     SCOPED_TRACE(each.name);
