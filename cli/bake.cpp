@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "bake_frames.h"
 #include "bake_levels.h"
 #include "bake_report.h"
+#include "bake_set.h"
 #include "bake_source.h"
 #include "bake_views.h"
 #include "command.h"
@@ -29,16 +31,20 @@ struct Bake {
   std::string rotation, convention, verify;
   BakeLevels made;
   BakeViews views;
+  BakeSet set;
   const CLI::Option* tolerance_option = nullptr;
   ReadFlags read;
   WriteFlags write;
   double exposure = 0;
   SanitizeFlags repair;
   FrameFlags frames;
-  std::string request;  ///< request_of
+  std::string request;  ///< request_of; of a set command_line
   bool json = false, extract_sun = false;
 
   void run();
+  void run_set();
+  /// Repairs that suit what is written to a file of that name.
+  SanitizeOptions repairs_for(const std::string& path, const io::WriteOptions& written) const;
   PrefilterOptions parse_options() const;
   WriteMapOptions parse_write();
 };
@@ -97,6 +103,46 @@ WriteMapOptions Bake::parse_write() {
   return write.parse();
 }
 
+SanitizeOptions Bake::repairs_for(const std::string& path, const io::WriteOptions& written) const {
+  SanitizeOptions repairs = repair.parse(
+      std::min(largest_value(path, written.type, std::exp2(exposure)), static_cast<double>(kMaxRadiance)));
+  repairs.negative_infinite = holds_negative(path, written.type);
+  return repairs;
+}
+
+void Bake::run_set() {
+  read.parse();
+  const std::string type = format.empty() ? write.type : format;
+  const WriteMapOptions write_options = parse_write();
+  const PrefilterOptions prefilter = parse_options();
+  if (!convention.empty()) parse_option("--convention", [&] { return convention_from_name(convention); });
+  SetOptions options = set.parse(out, made, type, convention, write_options);
+  options.tolerance = prefilter.tolerance;
+  options.mirror_filter = prefilter.mirror_filter;
+  options.exposure = std::exp2(exposure);
+  if (!verify.empty()) options.verified_texels = std::stoi(verify);
+  Matrix3 turn;
+  if (!rotation.empty()) turn = parse_rotation("--rotate", rotation);
+  Map source = read_bake_source(in, read, repair, repairs_for("x.ktx2", write_options.image));
+  SetRequest told{request,
+                  std::filesystem::path(in).filename().string(),
+                  source.parameterization.spec(),
+                  source.width(),
+                  source.height(),
+                  prefilter.tolerance,
+                  {}};
+  turn_world(source, turn);
+  if (extract_sun) {
+    if (source.channel_names == default_channel_names(4)) source = without_alpha(source);
+    Extraction extraction = extract_lights(source, {.most = 1});
+    source = std::move(extraction.residual);
+    told.sun = brightened(std::move(extraction.found), std::exp2(exposure));
+    warn_of_lights(in, *told.sun);
+  }
+  options.monitor = progress_monitor("bake");
+  set.run(source, out, options, told, json);
+}
+
 void Bake::run() {
   // Everything that can be wrong with the request, before any file is touched.
   read.parse();
@@ -132,9 +178,7 @@ void Bake::run() {
         "--convention", [&] { return orientation_for(convention_from_name(convention), options.target); });
   }
 
-  SanitizeOptions repairs = repair.parse(std::min(
-      largest_value(out, write_options.image.type, std::exp2(exposure)), static_cast<double>(kMaxRadiance)));
-  repairs.negative_infinite = holds_negative(out, write_options.image.type);
+  const SanitizeOptions repairs = repairs_for(out, write_options.image);
 
   if (numbered) {
     return bake_numbered(frames, {in, out, made, read, repair, repairs, write_options, turn,
@@ -202,6 +246,7 @@ void add_bake(CLI::App& app) {
       ->required();
   bake->made.add(*command);
   bake->views.add(*command);
+  bake->set.add(*command);
   bake->tolerance_option =
       command
           ->add_option("--tolerance", bake->tolerance,
@@ -250,6 +295,11 @@ void add_bake(CLI::App& app) {
   bake->write.add(*command);
   command->callback([bake, command] {
     bake->request = request_of(*command);
+    if (bake->set.asked(bake->out, *command)) {
+      bake->request = command_line(*command);
+      bake->in = input_path(bake->in);
+      return bake->run_set();
+    }
     const std::vector<std::string> texels = texel_formats();
     const bool stored = std::count(texels.begin(), texels.end(), bake->format) > 0;
     bake->out = output_path(bake->out, stored ? "" : std::exchange(bake->format, ""));

@@ -37,6 +37,7 @@ ordered_json json_of(const ErrorMeasures& e) {
   return {{"name", e.name},
           {"relative_rmse", e.relative_rmse},
           {"rmse", e.rmse},
+          {"rmsle", e.rmsle},
           {"mean_absolute", e.mean_absolute},
           {"max", e.maximum_absolute},
           {"max_direction", direction(e.maximum_absolute_direction)},
@@ -50,9 +51,10 @@ ordered_json json_of(const ErrorMeasures& e) {
 
 void print(const ErrorMeasures& e) {
   fmt::print(
-      "{:<8} rel. RMSE {:.6g}   RMSE {:.6g}   max {:.6g} along {:.3f},{:.3f},{:.3f}   PSNR {:.2f} dB   "
-      "energy {:.6f}\n",
-      e.name, e.relative_rmse, e.rmse, e.maximum_absolute, e.maximum_absolute_direction.x,
+      "{:<8} rel. RMSE {:.6g}   RMSE {:.6g}   RMSLE {:.6g}   max {:.6g} along {:.3f},{:.3f},{:.3f}   PSNR "
+      "{:.2f} "
+      "dB   energy {:.6f}\n",
+      e.name, e.relative_rmse, e.rmse, e.rmsle, e.maximum_absolute, e.maximum_absolute_direction.x,
       e.maximum_absolute_direction.y, e.maximum_absolute_direction.z, e.psnr, e.energy_ratio);
 }
 

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "welkin/brdf/engine_tables.h"
 #include "welkin/filter/resample.h"
+#include "welkin/lighting_set/engine.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/lobe/roughness_curve.h"
 #include "welkin/sphere/convention.h"
@@ -69,6 +70,11 @@ const std::map<std::string, std::function<void()>>& lists() {
        [] {
          for (const auto& c : conventions()) fmt::print("{:<20} {}\n", c.name, c.description);
        }},
+      {"engines",
+       [] {
+         for (const Engine& each : engines())
+           fmt::print("{:<20} {}: {}\n", each.name, each.title, each.summary);
+       }},
       {"filters",
        [] {
          for (const char* name : {"auto", "nearest", "bilinear", "bicubic", "lanczos"})
@@ -108,7 +114,7 @@ void add_list(CLI::App& app) {
   for (const auto& [name, print] : lists()) names.push_back(name);
   command
       ->add_option("WHAT", *what,
-                   "conventions, curves, filters, formats, layouts, lobes, luts, maps, methods, "
+                   "conventions, curves, engines, filters, formats, layouts, lobes, luts, maps, methods, "
                    "parameterizations, parameters")
       ->capture_default_str();
   command->callback([what, names] {

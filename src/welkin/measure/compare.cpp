@@ -37,7 +37,7 @@ struct Largest {
 };
 
 struct ChannelSums {
-  double a = 0, b = 0, squared_a = 0, squared_error = 0, absolute_error = 0;
+  double a = 0, b = 0, squared_a = 0, squared_error = 0, squared_log_error = 0, absolute_error = 0;
   double maximum_a = -kInfinity;
   Largest error, relative;
 
@@ -46,6 +46,7 @@ struct ChannelSums {
     b += other.b;
     squared_a += other.squared_a;
     squared_error += other.squared_error;
+    squared_log_error += other.squared_log_error;
     absolute_error += other.absolute_error;
     maximum_a = std::max(maximum_a, other.maximum_a);
     error.take(other.error.value, other.error.position);
@@ -69,6 +70,14 @@ struct Sums {
     skipped += other.skipped;
   }
 };
+
+/// (ln(1 + b) − ln(1 + a))² of values that aren't negative.
+double squared_log_ratio(double a, double b) {
+  if (a == b) return 0;
+  const double light = std::max(a, 0.0);
+  const double logarithm = std::log1p((std::max(b, 0.0) - light) / (1 + light));
+  return logarithm * logarithm;
+}
 
 double ratio(double a, double b) {
   return a == 0 ? 0 : b > 0 ? a / b : kInfinity;
@@ -219,6 +228,7 @@ class Comparer {
                        channel.b += weight * value_b;
                        channel.squared_a += weight * value_a * value_a;
                        channel.squared_error += weight * error * error;
+                       channel.squared_log_error += weight * squared_log_ratio(value_a, value_b);
                        channel.absolute_error += weight * std::fabs(error);
                        channel.maximum_a = std::max(channel.maximum_a, value_a);
                        channel.error.take(std::fabs(error), position);
@@ -293,6 +303,7 @@ class Comparer {
     result.rms_a = std::sqrt(sums.squared_a / weight);
     result.rmse = std::sqrt(sums.squared_error / weight);
     result.relative_rmse = ratio(result.rmse, result.rms_a);
+    result.rmsle = std::sqrt(sums.squared_log_error / weight);
     result.mean_absolute = sums.absolute_error / weight;
     result.maximum_absolute = sums.error.value;
     result.maximum_absolute_direction = direction_of(sums.error.position);

@@ -34,9 +34,12 @@ struct ErrorMeasures {
   double mean_b = 0;  ///< of what is compared with it
   /// ∫ b dω / ∫ a dω over what both show, each by its own texels: EnergyChange. Of A mean_b / mean_a.
   double energy_ratio = 1;
-  double rms_a = 0;                           ///< root of the mean of a²
-  double rmse = 0;                            ///< root of the mean of (b − a)²
-  double relative_rmse = 0;                   ///< rmse / rms_a; 0 when rmse is 0
+  double rms_a = 0;          ///< root of the mean of a²
+  double rmse = 0;           ///< root of the mean of (b − a)²
+  double relative_rmse = 0;  ///< rmse / rms_a; 0 when rmse is 0
+  /// Root of the mean of (ln(1 + b) − ln(1 + a))², negative values counted as 0: what HDR textures are judged
+  /// by, since bright texels don't outweigh all others.
+  double rmsle = 0;
   double mean_absolute = 0;                   ///< mean of |b − a|
   double maximum_absolute = 0;                ///< the largest |b − a|
   Vec3d maximum_absolute_direction{0, 0, 1};  ///< in the world

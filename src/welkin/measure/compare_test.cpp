@@ -75,6 +75,22 @@ TEST(Compare, AKnownErrorIsMeasuredAsItIs) {
   EXPECT_NEAR(c.channels[0].rms_a, std::sqrt(0.28), 2e-4);
 }
 
+TEST(Compare, RmsleIsTheErrorOfTheLogarithm) {
+  const Map a = smooth_map("cube", 16, 16);
+  Map b = a.clone();
+  for_each_texel(b, [](float* texel) {
+    for (int c = 0; c < 3; ++c) texel[c] = (1 + texel[c]) * 1.02f - 1;
+    texel[2] = texel[2] - texel[2];
+  });
+  const Comparison c = compare(a, b);
+  EXPECT_NEAR(c.channels[0].rmsle, std::log(1.02), 1e-6);
+  EXPECT_NEAR(c.channels[1].rmsle, std::log(1.02), 1e-6);
+  EXPECT_GT(c.channels[2].rmsle, 0.1);
+  // What is negative counts as 0.
+  for_each_texel(b, [](float* texel) { texel[2] = -1; });
+  EXPECT_EQ(compare(a, b).channels[2].rmsle, c.channels[2].rmsle);
+}
+
 TEST(Compare, ErrorsWeighAsTheirSolidAngle) {
   // Twice the radiance on the cap north of 60°, whose share of the sphere is (1 − sin 60°)/2.
   Map a = smooth_map("latlong", 60, 30);

@@ -1,0 +1,67 @@
+#include "welkin/lighting_set/stored_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
+
+namespace welkin {
+namespace {
+
+StoredError error_of_row(const float* given, const float* stored, std::size_t count) {
+  StoredError error;
+  error.values = count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double a = static_cast<double>(given[i]), b = static_cast<double>(stored[i]);
+    error.squared_error += (b - a) * (b - a);
+    error.squared += a * a;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (given[i] == stored[i]) continue;
+    const double light = std::max(static_cast<double>(given[i]), 0.0);
+    const double logarithm =
+        std::log1p((std::max(static_cast<double>(stored[i]), 0.0) - light) / (1 + light));
+    error.squared_log_error += logarithm * logarithm;
+  }
+  return error;
+}
+
+}  // namespace
+
+double StoredError::relative_rmse() const {
+  return squared_error == 0 ? 0 : std::sqrt(squared_error / squared);
+}
+
+double StoredError::rmsle() const {
+  return values == 0 ? 0 : std::sqrt(squared_log_error / static_cast<double>(values));
+}
+
+StoredError& StoredError::operator+=(const StoredError& other) {
+  squared_error += other.squared_error;
+  squared += other.squared;
+  squared_log_error += other.squared_log_error;
+  values += other.values;
+  return *this;
+}
+
+StoredError stored_error(const Map& given, const Map& stored) {
+  if (given.charts() != stored.charts() || given.width() != stored.width() ||
+      given.height() != stored.height() || given.channels() != stored.channels())
+    throw Error(ErrorKind::mismatch, "maps of other sizes have no error of storing");
+  const int height = given.height();
+  const std::size_t row =
+      static_cast<std::size_t>(given.width()) * static_cast<std::size_t>(given.channels());
+  // Added up in order, so that threads change nothing.
+  std::vector<StoredError> rows(static_cast<std::size_t>(given.charts()) * static_cast<std::size_t>(height));
+  parallel_for(given.charts() * height, [&](int i) {
+    rows[static_cast<std::size_t>(i)] = error_of_row(given.level.chart(i / height).row(i % height),
+                                                     stored.level.chart(i / height).row(i % height), row);
+  });
+  StoredError all;
+  for (const StoredError& each : rows) all += each;
+  return all;
+}
+
+}  // namespace welkin
