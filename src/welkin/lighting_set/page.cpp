@@ -229,11 +229,11 @@ with a second bounce, and the harmonics for diffuse light.</figcaption>
     for (const MadeFile& file : set_.files) {
       if (!file.levels.empty() && file.levels.front().verification) return;
     }
-    html_ += "<p class=\"faint\">Each level was filtered aiming for a relative RMS error of " +
-             percent(request_.tolerance) +
-             " %; <code>--verify</code> measures it against brute force. <em>Stored</em> is what the texels "
-             "of the file\n"
-             "differ by from what was filtered.</p>\n";
+    html_ +=
+        "<p class=\"faint\">Each level was filtered aiming for a relative RMS error of " +
+        percent(request_.tolerance) +
+        " %; this was not measured here. <em>Stored</em> is what the texels of the file differ by from what "
+        "was filtered.</p>\n";
   }
 
   static std::string errors_of(const SetLevel& level) {
