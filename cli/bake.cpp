@@ -39,7 +39,7 @@ struct Bake {
   SanitizeFlags repair;
   FrameFlags frames;
   std::string request;  ///< request_of; of a set command_line
-  bool json = false, extract_sun = false;
+  bool json = false, extract_sun = false, to_stdout = false;
 
   void run();
   void run_set();
@@ -101,6 +101,20 @@ WriteMapOptions Bake::parse_write() {
     write.type = format == "rgba32f" ? "float" : format == "rgba16f" ? "half" : format;
   }
   return write.parse();
+}
+
+/// What the file's texels lost.
+std::vector<StoredError> stored_errors(const Chain& chain, const std::string& path,
+                                       const std::string& shape) {
+  ReadMapOptions options;
+  options.shape = shape;
+  options.orientation = chain.levels.front().orientation;
+  options.join_faces = false;
+  const Chain again = read_chain(path, options);
+  std::vector<StoredError> errors;
+  for (std::size_t i = 0; i < chain.levels.size(); ++i)
+    errors.push_back(stored_error(chain.levels[i], again.levels.at(i)));
+  return errors;
 }
 
 SanitizeOptions Bake::repairs_for(const std::string& path, const io::WriteOptions& written) const {
@@ -184,7 +198,7 @@ void Bake::run() {
     return bake_numbered(frames, {in, out, made, read, repair, repairs, write_options, turn,
                                   std::exp2(exposure), request, json});
   }
-  BakeReport report{in, out, &made, bake_notes(options), {}, {}, {}};
+  BakeReport report{in, out, &made, bake_notes(options), {}, {}, {}, {}};
   Clock clock;
   Map source = read_bake_source(in, read, repair, repairs);
   turn_world(source, turn);
@@ -222,6 +236,8 @@ void Bake::run() {
   }
   report_losses(out, write_chain(out, chain, made.shape->layout, write_options));
   report.write_seconds = clock.lap();
+  if (write_options.image.type && io::is_packed(*write_options.image.type) && !to_stdout)
+    report.stored = stored_errors(chain, out, made.shape->text());
   json ? report.print_json() : report.print();
   report.report_misses();
 }
@@ -302,6 +318,7 @@ void add_bake(CLI::App& app) {
     }
     const std::vector<std::string> texels = texel_formats();
     const bool stored = std::count(texels.begin(), texels.end(), bake->format) > 0;
+    bake->to_stdout = bake->out == "-";
     bake->out = output_path(bake->out, stored ? "" : std::exchange(bake->format, ""));
     bake->in = input_path(bake->in);
     bake->run();

@@ -117,6 +117,10 @@ void BakeReport::print() const {
     }
     fmt::print("\n");
   }
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    fmt::print("level {} as it is stored: rel. RMSE {:.3g} %, RMSLE {:.2g}\n", i,
+               100 * stored[i].relative_rmse(), stored[i].rmsle());
+  }
   fmt::print("read {:.3f} s, planned {:.3f} s, filtered {:.3f} s, ", read_seconds, plan_seconds,
              compute_seconds);
   if (!verification.empty()) fmt::print("verified {:.3f} s, ", verify_seconds);
@@ -128,6 +132,8 @@ void BakeReport::print_json() const {
   if (sun) report["sun"] = sun->lights.empty() ? ordered_json(nullptr) : cli::json_of(*sun, 0);
   ordered_json levels = describe_levels(*made, notes, methods);
   for (std::size_t i = 0; i < verification.size(); ++i) levels[i]["verification"] = json_of(verification[i]);
+  for (std::size_t i = 0; i < stored.size(); ++i)
+    levels[i]["stored"] = {{"relative_rmse", stored[i].relative_rmse()}, {"rmsle", stored[i].rmsle()}};
   report["levels"] = std::move(levels);
   report["seconds"] = {{"read", read_seconds}, {"plan", plan_seconds}, {"compute", compute_seconds}};
   if (!verification.empty()) report["seconds"]["verify"] = verify_seconds;

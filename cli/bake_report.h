@@ -7,6 +7,7 @@
 
 #include "bake_levels.h"
 #include "welkin/light/light_set.h"
+#include "welkin/lighting_set/stored_error.h"
 #include "welkin/prefilter/verify.h"
 
 namespace welkin::cli {
@@ -25,6 +26,7 @@ struct BakeReport {
   ChainNotes notes;
   std::vector<PrefilterMethod> methods;
   std::vector<LevelVerification> verification;  ///< empty, or one for each level
+  std::vector<StoredError> stored;              ///< of texels that lose by being stored: of each level
   std::optional<LightSet> sun;                  ///< where it was to be taken out: it, or none
   double read_seconds = 0, plan_seconds = 0, compute_seconds = 0, verify_seconds = 0, write_seconds = 0;
 

@@ -268,7 +268,7 @@ printf '0 1\n90 nan\n' >nan.txt
 refuses 2 '--lobe: nan.txt' bake card.exr no.ktx2 --lobe table,file=nan.txt
 refuses 2 "--roughness: the roughness '1.5' is not a number in 0…1" bake card.exr no.ktx2 --roughness 0,1.5
 refuses 2 "--roughness: the roughness '-0.1' is not a number in 0…1" bake card.exr no.ktx2 --roughness=-0.1,1
-refuses 2 "--roughness: the roughness 0.2 is not above" bake card.exr no.ktx2 --roughness 0.5,0.2
+refuses 2 "--roughness: the roughness 0.2 is below the one before" bake card.exr no.ktx2 --roughness 0.5,0.2
 refuses 2 "--roughness: unknown roughness curve 'liner'; did you mean 'linear'" bake card.exr no.ktx2 --roughness liner
 refuses 2 "--roughness: the list 0,0.5 has 2 roughnesses for 3 levels" bake card.exr no.ktx2 --roughness 0,0.5 --levels 3
 refuses 2 '--roughness: charlie: roughness=0 is not a number in 0.01…1' bake card.exr no.ktx2 --lobe charlie --roughness 0,1

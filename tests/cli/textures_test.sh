@@ -43,6 +43,12 @@ matches 'R G B of bc6h' info blocks.dds --header
 must convert room.exr odd.ktx2 --type bc6h --size 37x19
 must info odd.ktx2
 
+# What storing lost is told, and is what diff finds.
+matches '^level 5 as it is stored: rel. RMSE ' bake room.exr told.dds --size 32 --format bc6h
+must bake room.exr told.ktx2 --size 32 --format bc6h --json
+below 'the error told' "$(jq '.levels[0].stored.relative_rmse' "$work/out")" "$(error chain.ktx2 told.ktx2 | awk '{ print $1 * 1.2 }')"
+below 'the error found' "$(error chain.ktx2 told.ktx2)" "$(jq '.levels[0].stored.relative_rmse * 1.2' "$work/out")"
+
 # Values that BC6H can't hold are clipped and counted.
 must synth sun sun.exr --size 256 --intensity 1e7
 run convert sun.exr sun.dds --type bc6h
