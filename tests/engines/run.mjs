@@ -1,0 +1,111 @@
+// Loads what Welkin bakes into the engines themselves, has them light a mirror, a rough and a diffuse ball, and compares every pixel with
+// what Welkin says. Prints a table, and leaves what was drawn in FOLDER/work; fails if an error exceeds its limit.
+//
+//     node run.mjs WELKIN FOLDER [--all | NAME…]    the command; the folder with node_modules; sets of sets.json. By default those that Welkin
+//                                                   bakes, with --all also those that engines filter themselves, which have no limit
+
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { Browser } from "./browser.mjs";
+import { bestOrientation, expected, relativeError, shown } from "./compare.mjs";
+import { MODULES } from "./modules.mjs";
+import { sheet } from "./picture.mjs";
+import { READS } from "./reads.mjs";
+import { Welkin } from "./welkin.mjs";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const sets = JSON.parse(readFileSync(join(here, "sets.json"), "utf8"));
+const [program, folder, ...words] = process.argv.slice(2);
+const names = Object.keys(sets).filter((name) => words.length === 0 ? !sets[name].own : words.includes(name) || words.includes("--all"));
+for (const word of words) if (word !== "--all" && !sets[word]) throw new Error(`no set '${word}'; there are: ${Object.keys(sets).join(", ")}`);
+
+const SIZE = 96;
+const VIEWS = [[0.3, 0.25, 1], [-1, -0.45, -0.2], [0.25, 0.9, -0.6]];
+const MAPS = ["axes", "room"];
+// Of the root of the mean square. The lights' own levels are half floats, which round by 0.03 %; GPUs interpolate with 8 bits.
+const LIMITS = { mirror: 0.01, rough: 0.02, diffuse: 0.01 };
+const SECONDS = 120;
+
+const work = join(folder, "work");
+rmSync(work, { recursive: true, force: true });
+mkdirSync(work, { recursive: true });
+const welkin = new Welkin(resolve(program), work);
+const browser = new Browser();
+
+const fileName = (name) => name.replace(/[^a-z0-9]+/g, "-");
+
+// The set's files, by its own commands, in a folder for this map.
+function bakeSet(name, map) {
+  const set = `${fileName(name)}-${map}`;
+  mkdirSync(join(work, set));
+  for (const [file, line] of Object.entries(sets[name].files)) {
+    welkin.make(line.replace("sky.exr", `${map}.exr`).replace(` ${file}`, ` ${set}/${file}`));
+  }
+  return join(work, set);
+}
+
+function draw(name, map) {
+  const { module, page, snippet } = sets[name], { head, imports } = MODULES[module];
+  const html = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">${head ?? ""}
+<script type="importmap">${JSON.stringify({ imports: imports ?? {} })}</script>
+<body><script type="module" src="/pages/page.js"></script>`;
+  return browser.show({
+    folders: { "/pages/": join(here, "pages"), "/node_modules/": join(folder, "node_modules"), "/set/": bakeSet(name, map) },
+    texts: {
+      "/": { type: "text/html", text: html },
+      "/task": { type: "application/json", text: JSON.stringify({ page, size: SIZE, views: VIEWS, folder: "/set" }) },
+      "/snippet.js": { type: "text/javascript", text: snippet.join("\n") },
+    },
+    seconds: SECONDS,
+  });
+}
+
+// The chain that Welkin itself reads: native, in floats.
+function bakeChain(levels, map) {
+  const file = `${map}-${fileName(levels)}.ktx2`;
+  welkin.makeOnce(file, `welkin bake ${map}.exr ${file} ${levels} --format rgba32f`);
+  return { file, levels: Number(levels.match(/--levels (\d+)/)[1]) };
+}
+
+const percent = (x) => (x === null ? "–" : (100 * x).toFixed(2));
+const wrong = [];
+
+function compare(name, map, pictures) {
+  const set = sets[name], chain = bakeChain(set.chain, map);
+  for (const ball of Object.keys(LIMITS)) {
+    const { pixels, r, read, exact } = expected({ welkin, map, chain, engine: set.reads, ball, size: SIZE, views: VIEWS });
+    const values = shown(pictures, ball, pixels);
+    const error = relativeError(values, read), exactError = exact && relativeError(values, exact);
+    console.log(`${name.padEnd(28)} ${map.padEnd(8)} ${ball.padEnd(8)} ${percent(error).padStart(7)} ${percent(exactError).padStart(12)}`);
+    if (set.own || error <= LIMITS[ball]) continue;
+    wrong.push(`${name}, ${map}: the ${ball} ball is off by ${percent(error)} %, more than ${100 * LIMITS[ball]} %`);
+    if (ball !== "mirror") continue;
+    const best = bestOrientation({ welkin, chain: chain.file, pixels, values, level: READS[set.reads].level(r, chain.levels - 1) });
+    wrong.push(`  it fits best, within ${percent(best.error)} %, where Welkin's (x, y, z) is (${best.axes})`);
+  }
+}
+
+try {
+  for (const map of MAPS) welkin.make(`welkin synth ${map} ${map}.exr --size 1024`);
+  console.log(`relative RMSE, %             map      ball     as read   exact lobe`);
+  for (const name of names) {
+    const rows = [];
+    try {
+      for (const map of MAPS) {
+        const { pictures, said } = await draw(name, map);
+        const before = wrong.length;
+        compare(name, map, pictures);
+        if (wrong.length > before) wrong.push(...said.map((line) => `  the page said: ${line}`));
+        rows.push(pictures);
+      }
+      writeFileSync(join(work, `${fileName(name)}.png`), sheet(rows, Object.keys(LIMITS), VIEWS.length, SIZE));
+    } catch (error) {
+      wrong.push(`${name}: ${error.message}`);
+    }
+  }
+} finally {
+  browser.close();
+}
+for (const line of wrong) console.error(line);
+process.exit(wrong.length ? 1 : 0);
