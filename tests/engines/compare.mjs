@@ -23,8 +23,21 @@ function lookUps(reads, ball, size, views) {
 function shade(reads, ball, { pixels, r }, welkin, light, diffuse) {
   if (ball === "diffuse") return diffuse;
   if (!reads.metal) return light;
-  const albedo = welkin.whiteAlbedo(reads.albedo);
-  return light.map((L, i) => reads.metal(albedo(pixels[Math.floor(i / 3)].cosine, r), L, diffuse[i]));
+  const albedo = reads.albedo ? welkin.whiteAlbedo(reads.albedo) : () => 1;
+  return light.map((L, i) => reads.metal(albedo(pixels[Math.floor(i / 3)].cosine, r), L, diffuse[i], r));
+}
+
+// Radiance that an engine finds at a level of a chain, a fraction between two; from lat-longs into which it has resampled the levels, if
+// it does that.
+function readChain(welkin, chain, reads, directions, level) {
+  if (!reads.latlong) return welkin.sample(chain.file, directions, level);
+  const low = Math.floor(level), t = level - low;
+  const [a, b] = [low, Math.ceil(level)].map((k) => {
+    const name = `${chain.file}-${k}.exr`;
+    welkin.makeOnce(name, `welkin convert ${chain.file} ${name} --level ${k} --to latlong --size ${reads.latlong(k)} --filter bilinear --quiet`);
+    return welkin.sample(name, directions);
+  });
+  return a.map((x, i) => (1 - t) * x + t * b[i]);
 }
 
 // { read, exact }: what a ball shows if the engine reads `chain`, and if lobes are exact instead, three numbers a pixel.
@@ -38,8 +51,14 @@ export function expected({ welkin, map, chain, engine, ball, size, views }) {
     return name;
   };
   const exactDiffuse = () => welkin.sample(lobe(`${map}-lambert.ktx2`, "lambert"), normals);
-  const readDiffuse = () => (reads.diffuseLevel ? welkin.sample(chain.file, normals, last) : exactDiffuse());
-  const readLight = () => (ball === "diffuse" ? [] : welkin.sample(chain.file, directions, reads.level(look.r, last)));
+  const readDiffuse = () => {
+    if (reads.diffuseLevel) return welkin.sample(chain.file, normals, last);
+    if (reads.diffuseDegree === undefined) return exactDiffuse();
+    const name = `${map}-degree-${reads.diffuseDegree}.exr`;
+    welkin.makeOnce(name, `welkin sh ${map}.exr ${name} --order ${reads.diffuseDegree} --of lambert --size 512x256 --quiet`);
+    return welkin.sample(name, normals);
+  };
+  const readLight = () => (ball === "diffuse" ? [] : readChain(welkin, chain, reads, directions, reads.level(look.r, last)));
   const exactLight = () => (ball === "diffuse" ? [] : welkin.sample(lobe(`${map}-${look.r}.ktx2`, `ggx,roughness=${look.r}`), directions));
   return {
     ...look,

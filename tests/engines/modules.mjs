@@ -1,6 +1,8 @@
 // How a page finds an engine in node_modules: an import map, or a script that makes a global.
 
 export const MODULES = {
+  babylon: { head: '<script src="/node_modules/babylonjs/babylon.js"></script>' },
+  playcanvas: { imports: { playcanvas: "/node_modules/playcanvas/build/playcanvas.mjs" } },
   three: {
     imports: { three: "/node_modules/three/build/three.module.js", "three/addons/": "/node_modules/three/examples/jsm/" },
   },

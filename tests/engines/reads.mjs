@@ -3,8 +3,12 @@
 //   level(r, last)   the level at which roughness r is looked up, of those to `last`
 //   least            the least roughness of a surface
 //   toNormal(r)      how far the reflected direction is moved to the normal
-//   metal(E, L, D)   what a white metal shows: E is the albedo of single scattering, L the reflected light, D the diffuse
-//   diffuseLevel     whether diffuse light is the last level
+//   metal(E, L, D, r)   what a white metal shows: E is the albedo of single scattering, L the reflected light, D the diffuse
+//   albedo           which of Welkin's tables holds E
+//   diffuseLevel     diffuse light is the last level
+//   diffuseDegree    diffuse light is spherical harmonics of this degree; with neither, it is all there is
+
+const slope = (r) => Math.min(1, r * r + 0.0005);  // Babylon's convertRoughnessToAverageSlope
 
 export const READS = {
   // src/renderers/shaders/ShaderChunk/: envmap_physical_pars_fragment (getIBLRadiance, getIBLIrradiance), lights_physical_fragment,
@@ -25,5 +29,24 @@ export const READS = {
     least: 0.089,
     toNormal: (r) => r ** 4,
     diffuseLevel: true,
+  },
+
+  // pbrIBLFunctions (getLodFromAlphaG, with CubeTexture's lodGenerationScale), pbrBlockReflection (MIX_IBL_RADIANCE_WITH_IRRADIANCE); a
+  // white metal's compensation takes E back. Diffuse light is a polynomial of degree 2 that the loader makes of level 0.
+  babylon: {
+    level: (r, last) => Math.min(Math.max(0.8 * Math.log2(256 * slope(r)), 0), last),
+    least: 0,
+    toNormal: () => 0,
+    metal: (E, L, D, r) => L + slope(r) * (D - L),
+    diffuseDegree: 2,
+  },
+
+  // src/scene/shader-lib/glsl/chunks/lit/frag/: reflectionEnv (calcReflection), ambient, fresnelSchlick; src/scene/graphics/env-lighting.js
+  // resamples the cube into an atlas, and makes the diffuse light of level 0.
+  playcanvas: {
+    level: (r, last) => last * r,
+    least: 0,
+    toNormal: () => 0,
+    latlong: (level) => `${(512 >> level) - 2}x${(256 >> level) - 2}`,
   },
 };
