@@ -1,25 +1,16 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "welkin/base/monitor.h"
 #include "welkin/image/image.h"
+#include "welkin/texture/block_pictures.h"
 #include "welkin/texture/texture_quality.h"
 
 /// Pictures ↔ blocks of BC6H, the textures of half floats that graphics cards read: 4×4 texels of R G B in 16
 /// bytes, row by row of blocks. docs/textures.md has the errors.
 namespace welkin {
-
-/// Values that a texture can't hold, and what became of them.
-struct ClampedValues {
-  std::uint64_t above = 0;         ///< over 65504, +infinity among them: became 65504
-  std::uint64_t below = 0;         ///< negative, −infinity among them: became 0
-  std::uint64_t not_a_number = 0;  ///< became 0
-
-  ClampedValues& operator+=(const ClampedValues& other);
-};
 
 /// Bytes of a picture's blocks, those at its edges as a whole. Throws Error (bad_request) for sizes below 1.
 std::size_t bc6h_bytes(int width, int height);

@@ -52,9 +52,6 @@ bool fits(const Block& block, int channel);
 bool fits(const Block& block);
 /// @}
 
-/// The largest value of a half: 65504.
-inline constexpr int kLargestHalf = 0x7bff;
-
 /// Of an unsigned format: an endpoint in 16 bits, 0 … 65535.
 constexpr int unquantized(int value, int precision) {
   if (precision >= 15 || value == 0) return value;

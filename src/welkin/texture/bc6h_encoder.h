@@ -1,30 +1,19 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "welkin/texture/bc6h_block.h"
+#include "welkin/texture/error_scale.h"
 
 /// The search for a block's best encoding. Internal to texture.
 namespace welkin::texture::bc6h {
 
-/// How errors are judged: the squared difference of ln(v + 0.01), which is relative where there is light and
-/// absolute where there is none. Alone, ln(v + 1) would ruin the relative error, and v would push dark texels
-/// beside bright ones to black.
-struct ErrorScale {
-  std::array<float, kLargestHalf + 1> log;    ///< of each half
-  std::array<float, kLargestHalf + 1> slope;  ///< its derivative squared, per step of a half
+/// Of the 32 partitions.
+const PartitionMasks& partition_masks();
 
-  static const ErrorScale& get();
-};
-
-/// Texels of the second region, 1 or 0, texel by texel for all partitions.
-struct PartitionMasks {
-  alignas(64) std::array<std::array<float, kPartitions>, kTexels> second;
-
-  static const PartitionMasks& get();
-};
+using texture::ErrorScale;
+using texture::kLargestHalf;
 
 /// How long the search is.
 struct Search {

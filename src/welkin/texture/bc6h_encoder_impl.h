@@ -1,37 +1,40 @@
-// The search for a block's encoding. It is over 400 lines because its steps share the block's texels in
-// packs, and are inlined into one loop for each instruction set.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <xsimd/xsimd.hpp>
 
 #include "welkin/texture/bc6h_encoder.h"
+#include "welkin/texture/block_fit_impl.h"
 
 /// Included by one source file per instruction set; everything carries its architecture in its template
 /// arguments, for the reason given in sphere/kernels_impl.h.
 namespace welkin::texture::bc6h {
 
 template <class Arch>
-class Encoder {
-  using Pack = xsimd::batch<float, Arch>;
-  static constexpr int kLanes = static_cast<int>(Pack::size);
-  static constexpr int kPacks = kTexels / kLanes;
+class Encoder : BlockFit<Arch> {
+  using Fit = BlockFit<Arch>;
+  using Fit::axes_, Fit::fit, Fit::half_, Fit::kLanes, Fit::kPacks, Fit::log_, Fit::project, Fit::region_,
+      Fit::residuals_, Fit::scale_, Fit::set_regions;
+  using typename Fit::Pack;
 
  public:
   static void encode(const std::uint16_t* halves, std::size_t blocks, const Search& search,
                      std::byte* bytes) {
     Encoder encoder(search);
     for (std::size_t i = 0; i < blocks; ++i, halves += 3 * kTexels, bytes += 16) {
-      encoder.load(halves);
+      // The decoder rounds down.
+      encoder.load(halves, [](int half) {
+        return std::pair{(static_cast<float>(half) + 0.5f) * (64.0f / 31), 1.0f};
+      });
       pack(encoder.best(), bytes);
     }
   }
 
  private:
-  explicit Encoder(const Search& search)
-      : search_(search), scale_(ErrorScale::get()), masks_(PartitionMasks::get()) {}
+  explicit Encoder(const Search& search) : search_(search), masks_(partition_masks()) {}
 
   /// A block and its error.
   struct Candidate {
@@ -46,203 +49,26 @@ class Encoder {
     float squares[3];
   };
 
-  void load(const std::uint16_t* halves) {
-    for (int i = 0; i < kTexels; ++i) {
-      for (int c = 0; c < 3; ++c) {
-        const std::uint16_t half = halves[3 * i + c];
-        half_[c][i] = half;
-        log_[c][i] = scale_.log[half];
-        weight_[c][i] = scale_.slope[half];
-        // The decoder rounds down.
-        wide_[c][i] = (static_cast<float>(half) + 0.5f) * (64.0f / 31);
-      }
-    }
-  }
-
   Block best() {
     Candidate best;
-    if (flat(best.block)) return best.block;
+    if (Fit::flat()) return one_colour();
     one_region(best);
-    rank();
-    for (int k = 0; k < search_.partitions; ++k) two_regions(ranked_[k], best);
+    Fit::rank(masks_);
+    for (int k = 0; k < search_.partitions; ++k) two_regions(Fit::take_best(residuals_), best);
     polish(best);
     return best.block;
   }
 
-  /// One colour, exactly.
-  bool flat(Block& block) const {
-    for (int c = 0; c < 3; ++c) {
-      for (int i = 1; i < kTexels; ++i) {
-        if (half_[c][i] != half_[c][0]) return false;
-      }
-    }
-    block = {};
+  /// Exactly, by the mode of the highest precision.
+  Block one_colour() const {
+    Block block;
     block.mode = 13;
     for (int c = 0; c < 3; ++c) block.endpoints[0][c] = block.endpoints[1][c] = (64 * half_[c][0] + 30) / 31;
-    return true;
-  }
-
-  // ------------------------------------------------------------------------------------------------
-  // partitions
-
-  /// Sums of a region's logarithms, and of their products, for a pack of partitions.
-  struct Moments {
-    Pack count, sum[3], product[6];
-  };
-
-  /// What is left beside the principal axis: the trace but the largest eigenvalue, and of that what indices
-  /// of 3 bits leave. The axis by power iteration from the column of the largest diagonal element.
-  static Pack residual(const Moments& m, Pack axis[3]) {
-    const Pack one(1.0f);
-    const Pack each = one / xsimd::max(m.count, one);
-    const Pack xx = m.product[0] - m.sum[0] * m.sum[0] * each, xy = m.product[1] - m.sum[0] * m.sum[1] * each,
-               xz = m.product[2] - m.sum[0] * m.sum[2] * each, yy = m.product[3] - m.sum[1] * m.sum[1] * each,
-               yz = m.product[4] - m.sum[1] * m.sum[2] * each, zz = m.product[5] - m.sum[2] * m.sum[2] * each;
-    const auto y_first = (yy > xx) & (yy >= zz);
-    const auto z_first = (zz > xx) & (zz > yy);
-    Pack a = xsimd::select(z_first, xz, xsimd::select(y_first, xy, xx));
-    Pack b = xsimd::select(z_first, yz, xsimd::select(y_first, yy, xy));
-    Pack c = xsimd::select(z_first, zz, xsimd::select(y_first, yz, xz));
-    for (int step = 0; step < 4; ++step) {
-      const Pack na = xx * a + xy * b + xz * c, nb = xy * a + yy * b + yz * c, nc = xz * a + yz * b + zz * c;
-      const Pack largest = xsimd::max(xsimd::max(xsimd::abs(na), xsimd::abs(nb)), xsimd::abs(nc));
-      const Pack inverse = one / xsimd::max(largest, Pack(1e-30f));
-      a = na * inverse;
-      b = nb * inverse;
-      c = nc * inverse;
-    }
-    const Pack norm = a * a + b * b + c * c;
-    const Pack inverse = one / xsimd::max(norm, Pack(1e-30f));
-    const Pack value =
-        (a * (xx * a + xy * b + xz * c) + b * (xy * a + yy * b + yz * c) + c * (xz * a + yz * b + zz * c)) *
-        inverse;
-    axis[0] = a;
-    axis[1] = b;
-    axis[2] = c;
-    return xsimd::max(xx + yy + zz - value, Pack(0.0f)) + value * Pack(1.0f / 49);
-  }
-
-  Moments whole() const {
-    Moments m{Pack(16.0f), {Pack(0.0f), Pack(0.0f), Pack(0.0f)}, {}};
-    for (Pack& each : m.product) each = Pack(0.0f);
-    for (int i = 0; i < kTexels; ++i) add(m, Pack(1.0f), i);
-    return m;
-  }
-  void add(Moments& m, const Pack& mask, int i) const {
-    const float x = centred_[0][i], y = centred_[1][i], z = centred_[2][i];
-    m.sum[0] = xsimd::fma(mask, Pack(x), m.sum[0]);
-    m.sum[1] = xsimd::fma(mask, Pack(y), m.sum[1]);
-    m.sum[2] = xsimd::fma(mask, Pack(z), m.sum[2]);
-    m.product[0] = xsimd::fma(mask, Pack(x * x), m.product[0]);
-    m.product[1] = xsimd::fma(mask, Pack(x * y), m.product[1]);
-    m.product[2] = xsimd::fma(mask, Pack(x * z), m.product[2]);
-    m.product[3] = xsimd::fma(mask, Pack(y * y), m.product[3]);
-    m.product[4] = xsimd::fma(mask, Pack(y * z), m.product[4]);
-    m.product[5] = xsimd::fma(mask, Pack(z * z), m.product[5]);
-  }
-  void centre() {
-    for (int c = 0; c < 3; ++c) {
-      float sum = 0;
-      for (int i = 0; i < kTexels; ++i) sum += log_[c][i];
-      for (int i = 0; i < kTexels; ++i) centred_[c][i] = log_[c][i] - sum / kTexels;
-    }
-  }
-
-  /// The partitions with the least residuals, and their regions' axes.
-  void rank() {
-    const Moments all = whole();
-    alignas(64) float residuals[kPartitions];
-    for (int from = 0; from < kPartitions; from += kLanes) {
-      Moments second{Pack(0.0f), {Pack(0.0f), Pack(0.0f), Pack(0.0f)}, {}}, first;
-      for (Pack& each : second.product) each = Pack(0.0f);
-      for (int i = 0; i < kTexels; ++i) {
-        const Pack mask =
-            Pack::load_unaligned(&masks_.second[static_cast<std::size_t>(i)][static_cast<std::size_t>(from)]);
-        second.count = second.count + mask;
-        add(second, mask, i);
-      }
-      first.count = all.count - second.count;
-      for (int k = 0; k < 3; ++k) first.sum[k] = all.sum[k] - second.sum[k];
-      for (int k = 0; k < 6; ++k) first.product[k] = all.product[k] - second.product[k];
-      Pack axes[2][3];
-      const Pack sum = residual(first, axes[0]) + residual(second, axes[1]);
-      sum.store_unaligned(residuals + from);
-      for (int r = 0; r < 2; ++r) {
-        for (int c = 0; c < 3; ++c) axes[r][c].store_unaligned(&axes_[r][c][from]);
-      }
-    }
-    for (int k = 0; k < search_.partitions; ++k) {
-      int least = 0;
-      for (int p = 1; p < kPartitions; ++p) least = residuals[p] < residuals[least] ? p : least;
-      ranked_[k] = least;
-      residuals[least] = std::numeric_limits<float>::infinity();
-    }
+    return block;
   }
 
   // ------------------------------------------------------------------------------------------------
   // endpoints
-
-  /// Positions of the texels along an axis, of each region from 0 to 1; the anchor's in the lower half.
-  void project(unsigned second, const float axes[2][3], const int anchors[2], float* position) const {
-    alignas(64) float along[kTexels];
-    for (int i = 0; i < kTexels; ++i) {
-      const int r = static_cast<int>(second >> i & 1);
-      along[i] = axes[r][0] * log_[0][i] + axes[r][1] * log_[1][i] + axes[r][2] * log_[2][i];
-    }
-    float low[2] = {1e30f, 1e30f}, high[2] = {-1e30f, -1e30f};
-    for (int i = 0; i < kTexels; ++i) {
-      const int r = static_cast<int>(second >> i & 1);
-      low[r] = std::min(low[r], along[i]);
-      high[r] = std::max(high[r], along[i]);
-    }
-    float scale[2], offset[2];
-    for (int r = 0; r < 2; ++r) {
-      const float width = high[r] - low[r];
-      scale[r] = width > 0 ? 1 / width : 0.0f;
-      offset[r] = low[r];
-      if ((along[anchors[r]] - low[r]) * scale[r] > 0.5f) {
-        scale[r] = -scale[r];
-        offset[r] = high[r];
-      }
-    }
-    for (int i = 0; i < kTexels; ++i) {
-      const int r = static_cast<int>(second >> i & 1);
-      position[i] = (along[i] - offset[r]) * scale[r];
-    }
-  }
-
-  /// Endpoints of each region by least squares for texels' weights 0 … 1, of 16 bits, not rounded.
-  void fit(int regions, const float* share, float (*ends)[3]) const {
-    for (int r = 0; r < regions; ++r) {
-      for (int c = 0; c < 3; ++c) {
-        Pack aa(0.0f), ab(0.0f), bb(0.0f), ax(0.0f), bx(0.0f);
-        for (int k = 0; k < kPacks; ++k) {
-          const Pack mask = Pack::load_unaligned(&region_[r][k * kLanes]);
-          const Pack b = Pack::load_unaligned(share + k * kLanes), a = Pack(1.0f) - b;
-          const Pack w = mask * Pack::load_unaligned(&weight_[c][k * kLanes]);
-          const Pack x = Pack::load_unaligned(&wide_[c][k * kLanes]);
-          const Pack wa = w * a, wb = w * b;
-          aa = xsimd::fma(wa, a, aa);
-          ab = xsimd::fma(wa, b, ab);
-          bb = xsimd::fma(wb, b, bb);
-          ax = xsimd::fma(wa, x, ax);
-          bx = xsimd::fma(wb, x, bx);
-        }
-        const float saa = xsimd::hadd(aa), sab = xsimd::hadd(ab), sbb = xsimd::hadd(bb),
-                    sax = xsimd::hadd(ax), sbx = xsimd::hadd(bx);
-        const float determinant = saa * sbb - sab * sab;
-        float a, b;
-        if (determinant > 1e-5f * (saa + sbb) * (saa + sbb)) {
-          a = (sax * sbb - sbx * sab) / determinant;
-          b = (sbx * saa - sax * sab) / determinant;
-        } else {
-          a = b = (sax + sbx) / std::max(saa + 2 * sab + sbb, 1e-30f);
-        }
-        ends[2 * r][c] = std::clamp(a, 0.0f, 65535.0f);
-        ends[2 * r + 1][c] = std::clamp(b, 0.0f, 65535.0f);
-      }
-    }
-  }
 
   /// The endpoint of a precision that lies nearest.
   static int quantized(float wide, int precision) {
@@ -443,18 +269,11 @@ class Encoder {
     if (candidate.error < best.error) best = candidate;
   }
 
-  void set_regions(unsigned second) {
-    for (int i = 0; i < kTexels; ++i) {
-      region_[1][i] = static_cast<float>(second >> i & 1);
-      region_[0][i] = 1 - region_[1][i];
-    }
-  }
-
   void one_region(Candidate& best) {
-    centre();
+    Fit::centre();
     set_regions(0);
     Pack axis[3];
-    residual(whole(), axis);
+    Fit::residual(Fit::whole(), axis);
     float axes[2][3];
     for (int c = 0; c < 3; ++c) axes[0][c] = axes[1][c] = axis[c].get(0);
     const int anchors[2] = {0, 0};
@@ -561,16 +380,7 @@ class Encoder {
   }
 
   const Search search_;
-  const ErrorScale& scale_;
   const PartitionMasks& masks_;
-  std::uint16_t half_[3][kTexels];
-  alignas(64) float log_[3][kTexels];
-  alignas(64) float centred_[3][kTexels];
-  alignas(64) float weight_[3][kTexels];
-  alignas(64) float wide_[3][kTexels];
-  alignas(64) float region_[2][kTexels];  ///< 1 for its texels
-  alignas(64) float axes_[2][3][kPartitions];
-  int ranked_[kPartitions];
 };
 
 }  // namespace welkin::texture::bc6h
