@@ -11,7 +11,7 @@ import { extname, join, normalize } from "node:path";
 const TYPES = { ".css": "text/css", ".js": "text/javascript", ".json": "application/json", ".mjs": "text/javascript",
   ".wasm": "application/wasm" };
 
-const OPTIONS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+export const OPTIONS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
   "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking", "--disable-component-update",
   "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"];
 
