@@ -43,6 +43,17 @@ matches 'R G B of bc6h' info blocks.dds --header
 must convert room.exr odd.ktx2 --type bc6h --size 37x19
 must info odd.ktx2
 
+# OpenImageIO decodes the same texels, of pictures and of cubes, whose faces it puts one under the other. Of DDS it reads BC6H alone among
+# all that is HDR.
+must convert room.exr flat.dds --type bc6h
+must convert room.exr cube.dds --to cube --size 32 --type bc6h
+checks=$((checks + 1))
+oiiotool flat.dds -o flat.exr && oiiotool cube.dds --fullsize 32x192+0+0 -o strip.exr || fail 'oiiotool cannot read our DDS'
+below 'OpenImageIO and a picture' "$(error flat.dds flat.exr)" 0
+faces=px:mirror,nx:mirror,py:mirror,ny:mirror,pz:mirror,nz:mirror
+must convert strip.exr faces.ktx2 --from cube:vstrip --from-faces "$faces" --to cube
+below 'OpenImageIO and a cube' "$(error cube.dds faces.ktx2)" 0
+
 # What storing lost is told, and is what diff finds.
 matches '^level 5 as it is stored: rel. RMSE ' bake room.exr told.dds --size 32 --format bc6h
 must bake room.exr told.ktx2 --size 32 --format bc6h --json
