@@ -115,9 +115,19 @@ WriteReport PictureWriter::write(ByteSink& file, const WritePart& part) {
   const TexelEncoder encoder(type_,
                              channel_order(part, is_packed(type_) ? Alpha::none : Alpha::allowed, holder_),
                              colour_, false, quality_);
-  bytes_.resize(static_cast<std::size_t>(picture_bytes(*format_, part.image.width, part.image.height)));
-  const WriteReport report = write_picture(encoder, *format_, part.image, bytes_);
-  file.write(bytes_);
+  // Bands that stay in the cache between encoding and the system's copy.
+  constexpr std::size_t kBandBytes = std::size_t{1} << 20;
+  const auto stride = static_cast<std::size_t>(row_bytes(*format_, part.image.width));
+  const int block = format_->block();
+  const int band = block * static_cast<int>(std::max<std::size_t>(1, kBandBytes / stride));
+  WriteReport report;
+  for (int y = 0; y < part.image.height; y += band) {
+    const int height = std::min(band, part.image.height - y);
+    bytes_.resize(static_cast<std::size_t>(stored_rows(*format_, height)) * stride);
+    report =
+        report + write_picture(encoder, *format_, part.image.part(0, y, part.image.width, height), bytes_);
+    file.write(bytes_);
+  }
   return report;
 }
 
