@@ -50,6 +50,14 @@ void read_picture(const StoredPicture& picture, std::span<const int> channels, I
   }
   const PixelDecoder decoder(format.plain() ? format.type : PixelType::float32,
                              srgb_channels(names, picture.colour));
+  // All of a texel, or all but A, in order.
+  const bool in_order = stored == std::vector<int>{0, 1, 2} || stored == std::vector<int>{0, 1, 2, 3};
+  const DecodeHalfTexels decode_halves = in_order && constants.empty() && names.size() == 4 &&
+                                                 format.plain() && format.type == PixelType::half &&
+                                                 picture.colour == Colour::linear && !picture.from_right &&
+                                                 out.channels == static_cast<int>(stored.size())
+                                             ? decode_half_texels()
+                                             : nullptr;
   const int block = format.block(), width = out.width;
   const auto bytes = static_cast<std::size_t>(row_bytes(format, width));
   const std::size_t row_values = format.channels.size() * static_cast<std::size_t>(width);
@@ -65,6 +73,10 @@ void read_picture(const StoredPicture& picture, std::span<const int> channels, I
     }
     for (int i = 0; i < height; ++i) {
       const int y = picture.from_bottom ? out.height - 1 - (row * block + i) : row * block + i;
+      if (decode_halves != nullptr) {
+        decode_halves(texels.data(), width, out.row(y), out.channels);
+        continue;
+      }
       const void* const values = format.plain() ? static_cast<const void*>(texels.data())
                                                 : floats.data() + static_cast<std::size_t>(i) * row_values;
       float* const to = picture.from_right ? out.at(width - 1, y) : out.row(y);

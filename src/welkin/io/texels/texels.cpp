@@ -212,8 +212,10 @@ TexelEncoder::TexelEncoder(PixelType type, std::vector<int> order, Colour colour
   const bool packed = is_packed(type);
   assert(packed ? order_.size() == 1 || order_.size() == 3 : !order_.empty());
   static_cast<void>(packed);
-  copies_ = type == PixelType::float32 && !srgb_ && order_.size() >= 3;
-  for (std::size_t k = 0; k < order_.size(); ++k) copies_ = copies_ && order_[k] == static_cast<int>(k);
+  bool in_order = !srgb_ && order_.size() >= 3;
+  for (std::size_t k = 0; k < order_.size(); ++k) in_order = in_order && order_[k] == static_cast<int>(k);
+  copies_ = in_order && type == PixelType::float32;
+  if (in_order && type == PixelType::half) encode_halves_ = encode_half_texels();
 }
 
 void TexelEncoder::encode(const float* in, int channels, int count, std::byte* out,
@@ -235,6 +237,8 @@ void TexelEncoder::encode(const float* in, int channels, int count, std::byte* o
     return;
   }
 
+  if (encode_halves_ != nullptr && channels == static_cast<int>(order_.size()) && count > 0)
+    return encode_halves_(in, channels, count, out, report.above);
   if (two_channels_) return encode_two(in, channels, count, out, report);
   const bool alpha = order_.size() % 2 == 0;
   const Colours& colours = order_.size() <= 2 ? kGrey : kRgb;

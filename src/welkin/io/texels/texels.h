@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "welkin/io/texels/formats.h"
+#include "welkin/io/texels/half_texels.h"
 
 /// Rows of linear floats ↔ rows of texels as KTX2 stores them, tightly packed.
 namespace welkin::io::texels {
@@ -41,7 +42,8 @@ class TexelEncoder {
   bool srgb_;
   bool two_channels_;
   TextureQuality quality_;
-  bool copies_;
+  bool copies_;                               ///< floats in the order of the file
+  EncodeHalfTexels encode_halves_ = nullptr;  ///< of halves in the order of the file, where there is one
 };
 
 /// `count` texels of a packed type to interleaved R G B; exact.
