@@ -121,6 +121,36 @@ scene.environment = environment;
   return engine;
 }
 
+/// Releases that have no chains of cubes in files.
+Engine older_three_js() {
+  Engine engine;
+  engine.name = "three.js,r186";
+  engine.title = "three.js up to r186";
+  engine.summary = "a panorama, which it filters itself, and a LightProbe";
+  engine.source = "src/extras/PMREMGenerator.js, examples/jsm/loaders/RGBELoader.js";
+  engine.files = {panorama_file("panorama.hdr", "scene.environment and scene.background", "three.js"),
+                  harmonics_file("harmonics.json", "for a LightProbe", "three.js", "three.js")};
+  engine.snippet = R"(import * as THREE from 'three';
+import { RGBELoader } from 'three/addons/loaders/RGBELoader.js';
+
+const panorama = await new RGBELoader().loadAsync('panorama.hdr');
+panorama.mapping = THREE.EquirectangularReflectionMapping;
+scene.environment = scene.background = panorama;
+)";
+  return engine;
+}
+
+Engine model_viewer() {
+  Engine engine;
+  engine.name = "model-viewer";
+  engine.title = "model-viewer 4";
+  engine.summary = "a panorama, which it filters itself";
+  engine.source = "packages/model-viewer/src/three-components/TextureUtils.ts";
+  engine.files = {panorama_file("panorama.hdr", "environment-image and skybox-image", "three.js")};
+  engine.snippet = "<model-viewer src=\"model.glb\" environment-image=\"panorama.hdr\"></model-viewer>\n";
+  return engine;
+}
+
 Engine filament() {
   Engine engine;
   engine.name = "filament";
@@ -334,9 +364,11 @@ const std::vector<Engine>& engines() {
       filament(),
       godot(),
       khronos(),
+      model_viewer(),
       o3de(),
       playcanvas(),
       three_js(),
+      older_three_js(),
       imported(
           "unity", "Unity", "panorama.hdr", "unity",
           "a panorama, which it filters on import, and its shaders' harmonics",
