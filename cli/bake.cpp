@@ -167,7 +167,8 @@ void Bake::run() {
   if (numbered && extract_sun)
     throw UsageError(
         "--extract-sun: is for one map; a sun of its own in every frame would jump between them");
-  const WriteMapOptions write_options = parse_write();
+  WriteMapOptions write_options = parse_write();
+  write_options.convention = convention;
   // What a stack is made with by default: see ViewBakeOptions.
   if (views.makes_stack() && tolerance_option->count() == 0) tolerance = "0.5%";
   const PrefilterOptions prefilter = parse_options();
@@ -188,8 +189,10 @@ void Bake::run() {
   // Channels that were named are all wanted.
   options.keep_alpha = !read.channels.empty();
   if (!convention.empty()) {
-    options.prefilter.orientation = parse_option(
-        "--convention", [&] { return orientation_for(convention_from_name(convention), options.target); });
+    parse_option("--convention", [&] { return convention_from_name(convention); });
+    fit_to_convention(out, convention, *made.shape);
+    options.target = made.shape->parameterization;
+    options.prefilter.orientation = orientation_for(convention_from_name(convention), options.target);
   }
 
   const SanitizeOptions repairs = repairs_for(out, write_options.image);

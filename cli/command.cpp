@@ -210,6 +210,14 @@ MapReader ReadFlags::open_unknown(const std::string& path) const {
   options.faces.clear();
   options.join_faces = pixels && faces.empty() && convention.empty();
   MapReader reader(path, options);
+  if (reader.info().shape && !convention.empty() && reader.info().reason.starts_with("guessed")) {
+    MapShape guessed = *reader.info().shape;
+    fit_to_convention(path, convention, guessed);
+    if (!(guessed.parameterization == reader.info().shape->parameterization)) {
+      options.shape = guessed.text();
+      reader = MapReader(path, options);
+    }
+  }
   if (reader.info().shape && !convention.empty()) {
     reader.set_orientation(
         orientation_for(convention_from_name(convention), reader.info().shape->parameterization));
@@ -317,6 +325,15 @@ void check_extension(const std::string& path) {
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
+}
+
+void fit_to_convention(const std::string& path, const std::string& convention, MapShape& shape) {
+  if (convention.empty()) return;
+  const auto fitted = parameterization_for(convention_from_name(convention), shape.parameterization);
+  if (fitted == shape.parameterization) return;
+  print_warning(
+      path, fmt::format("is {}, as {} reads a {}", fitted.name(), convention, shape.parameterization.name()));
+  shape.parameterization = fitted;
 }
 
 void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags) {

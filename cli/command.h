@@ -108,6 +108,8 @@ std::string input_path(const std::string& in);
 
 /// UsageError for a name whose extension is that of no format which is written.
 void check_extension(const std::string& path);
+/// The shape of a map in a file of this convention, as far as it differs: said on stderr.
+void fit_to_convention(const std::string& path, const std::string& convention, MapShape& shape);
 /// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't
 /// fit (extension, `%s`, faces), Error for a folder that doesn't take the file.
 void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags = {});

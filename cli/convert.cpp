@@ -13,6 +13,7 @@
 #include "sanitize_flags.h"
 #include "welkin/filter/resample.h"
 #include "welkin/map/adjust.h"
+#include "welkin/map_file/kept_convention.h"
 #include "welkin/map_file/write_resampled.h"
 #include "welkin/measure/energy.h"
 #include "welkin/sphere/convention.h"
@@ -55,7 +56,8 @@ struct Convert {
   ChartSize size_for(const Map& source, const MapShape& shape) const;
   /// Whether the output shows the part of the world that the input shows, and so is turned as that is.
   bool keeps_orientation(const MapFileInfo& info) const;
-  Matrix3 orientation_of(const sphere::AnyParameterization& parameterization, const MapFileInfo& info) const;
+  /// Of the output: as asked, else the input's, which is told; empty: none.
+  std::string convention_for(const MapFileInfo& info, const sphere::AnyParameterization& to) const;
   float factor() const { return static_cast<float>(scale * std::exp2(exposure)); }
   Map converted(const Map& source, const MapFrame& frame, const ResampleOptions& options) const;
   /// Warns of an interpolating filter that changed the energy.
@@ -73,7 +75,7 @@ struct Convert {
 void Convert::run() const {
   // Everything that can be wrong with the request, before any file is touched.
   read.parse();
-  const WriteMapOptions write_options = write.parse();
+  WriteMapOptions write_options = write.parse();
   repair.parse();
   check_extension(out);
   if (json && !verify) throw UsageError("--json: is the report of --verify, which is not asked for");
@@ -96,12 +98,18 @@ void Convert::run() const {
   const int first = read.level.value_or(0);
   int levels = levels_for(info);
   shape = to.empty() ? shape_for_copy(info, out, levels) : parse_map_shape_for(out, to, levels);
+  write_options.convention = convention_for(info, shape->parameterization);
+  fit_to_convention(out, write_options.convention, *shape);
   if (!read.level && levels < levels_of(info)) {
     print_message(fmt::format("welkin: {}: holds level 0 of the {} of {}; --level takes another\n", out,
                               levels_of(info), in));
   }
 
-  const Matrix3 orientation = orientation_of(shape->parameterization, info);
+  const Matrix3 orientation =
+      write_options.convention.empty() && keeps_orientation(info) ? info.orientation
+      : write_options.convention.empty()
+          ? Matrix3{}
+          : orientation_for(convention_from_name(write_options.convention), shape->parameterization);
   Chain chain;
   chain.notes = levels == 1 ? info.notes.of_level(first) : info.notes;
   ChartSize finest;
@@ -139,7 +147,8 @@ void Convert::run() const {
       levels = written.count;
       chain.notes.roughness.resize(std::min(chain.notes.roughness.size(), static_cast<std::size_t>(levels)));
       check_output_levels(out, *shape, finest, levels, write);
-      if (keeps_orientation(info) && !io::capabilities_for(out).attributes) {
+      if (write_options.convention.empty() && keeps_orientation(info) &&
+          !io::capabilities_for(out).attributes) {
         print_message(fmt::format(
             "welkin: {}: is turned as the input is, which the file cannot say; --to latlong turns it to the "
             "native world\n",
@@ -283,10 +292,20 @@ bool Convert::keeps_orientation(const MapFileInfo& info) const {
          !info.shape->parameterization.whole_world() && !(info.orientation == Matrix3{});
 }
 
-Matrix3 Convert::orientation_of(const sphere::AnyParameterization& parameterization,
-                                const MapFileInfo& info) const {
-  if (keeps_orientation(info)) return info.orientation;
-  return convention.empty() ? Matrix3{} : orientation_for(convention_from_name(convention), parameterization);
+std::string Convert::convention_for(const MapFileInfo& info, const sphere::AnyParameterization& to) const {
+  if (!convention.empty() || !read.convention.empty()) return convention;
+  if (const std::optional<KeptConvention> kept = kept_convention(info, to)) {
+    const bool declares = io::capabilities_for(out).attributes;
+    print_warning(out, fmt::format("is in the convention {}, as {} is{}; --convention native turns it",
+                                   kept->name, in, declares ? "" : ", which the file cannot say"));
+    return kept->name;
+  }
+  if (declares_convention(info))
+    print_warning(out,
+                  fmt::format("is in the native world; {} is not, and does not say by name in which one, "
+                              "--convention does",
+                              in));
+  return {};
 }
 
 Map Convert::converted(const Map& source, const MapFrame& frame, const ResampleOptions& options) const {

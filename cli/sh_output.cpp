@@ -89,6 +89,7 @@ void ShOutput::write_text(const SphericalHarmonics& stored, const std::string& o
 
 void ShOutput::write_picture(const SphericalHarmonics& stored) const {
   MapShape shape = parse_map_shape_for(out, to);
+  fit_to_convention(out, convention, shape);
   const ChartSize chart = parse_chart_size("--size", size, shape.parameterization);
   check_output_size(chart, shape, write);
   shape = for_chart_size(shape, chart);
@@ -99,7 +100,8 @@ void ShOutput::write_picture(const SphericalHarmonics& stored) const {
     return map_of(stored, shape.parameterization, chart, orientation, progress_monitor("sh"));
   });
   end_progress();
-  const WriteMapOptions options = write.parse();
+  WriteMapOptions options = write.parse();
+  options.convention = convention;
   fit_channels_to(map, out, options);
   report_losses(out, write_map(out, map, shape.layout, options));
 }

@@ -17,14 +17,17 @@ struct Synth {
 };
 
 void Synth::run() const {
-  const WriteMapOptions write_options = write.parse();
+  WriteMapOptions write_options = write.parse();
+  write_options.convention = convention;
   synth::Radiance radiance;
   try {
     radiance = synth::make(name, options);
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
+  if (!convention.empty()) parse_option("--convention", [&] { return convention_from_name(convention); });
   MapShape shape = parse_option("--to", [&] { return parse_map_shape_for(out, to); });
+  fit_to_convention(out, convention, shape);
   check_output(out, shape, write);
   const std::string text = !size.empty() ? size : shape.parameterization.charts() == 1 ? "1024" : "256";
   const ChartSize chart = parse_chart_size("--size", text, shape.parameterization);
@@ -33,9 +36,7 @@ void Synth::run() const {
   RenderOptions render_options;
   render_options.samples = samples;
   if (!convention.empty()) {
-    render_options.orientation =
-        orientation_for(parse_option("--convention", [&] { return convention_from_name(convention); }),
-                        shape.parameterization);
+    render_options.orientation = orientation_for(convention_from_name(convention), shape.parameterization);
   }
   render_options.monitor = progress_monitor("synth");
   const Map map = render(radiance, shape.parameterization, chart.width, chart.height, render_options);

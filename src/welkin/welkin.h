@@ -67,6 +67,7 @@
 #include "welkin/map/pyramid.h"
 #include "welkin/map/view_chains.h"
 #include "welkin/map_file/chain_file.h"
+#include "welkin/map_file/kept_convention.h"
 #include "welkin/map_file/layout.h"
 #include "welkin/map_file/map_file.h"
 #include "welkin/map_file/safety_border.h"

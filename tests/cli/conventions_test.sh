@@ -17,6 +17,14 @@ turned() {
   done
   printf '%s' "${list#,}"
 }
+# says PATTERN ARGUMENT…: it works, and a message has PATTERN.
+says() {
+  local pattern=$1
+  shift
+  checks=$((checks + 1))
+  run "$@"
+  ((status == 0)) && grep -qF -- "$pattern" "$work/messages" || fail "welkin $*: status $status: $(head -n 3 -- "$work/messages")"
+}
 opposite() { turned "$1" "-x -y -z"; }
 
 # shows MAP "WORLD=DIRECTION …" TOLERANCE [OPTION…]: along each DIRECTION of the map lies the card's colour of WORLD.
@@ -38,26 +46,26 @@ must synth axes card.exr --size 1024 --samples 2
 # name | lat-long: at the centre | to the right of it | cube look-up with our …
 while IFS='|' read -r name centre right lookup; do
   # Read as if it were native, the picture's centre is +Z, right of it −X, its edge −Z and the left half's middle +X; up is up.
-  must convert card.exr panorama.exr --to latlong --size 256 --convention "$name"
+  must convert card.exr panorama.exr --to latlong --size 256 --convention "$name" -q
   shows panorama.exr "$centre=0,0,1 $right=-1,0,0 $(opposite "$centre")=0,0,-1 $(opposite "$right")=1,0,0 0,1,0=0,1,0 0,-1,0=0,-1,0" \
     0.02 --from-convention native
   shows panorama.exr "$declared" 0.02
-  must synth axes drawn.exr --to latlong --size 256 --samples 3 --convention "$name"
+  must synth axes drawn.exr --to latlong --size 256 --samples 3 --convention "$name" -q
   same drawn.exr panorama.exr 0.15
   # The same through a format that declares nothing.
-  must convert card.exr bare.pfm --to latlong --size 256 --to-convention "$name"
-  must convert bare.pfm native.exr --from-convention "$name"
+  must convert card.exr bare.pfm --to latlong --size 256 --to-convention "$name" -q
+  must convert bare.pfm native.exr --from-convention "$name" -q
   same card.exr native.exr 0.35
 
   # Cubes of programs whose look-up is the native one are native cubes.
   if [[ $name != native && $lookup == "x y z" ]]; then
     must convert card.exr native.exr --to cube --size 32
-    must convert card.exr map.exr --to cube --size 32 --convention "$name"
+    must convert card.exr map.exr --to cube --size 32 --convention "$name" -q
     same native.exr map.exr 0 --from-convention native
     continue
   fi
   for shape in cube:layers eac:layers paraboloid octahedral octahedral-rect octahedral-equal-area healpix; do
-    must convert card.exr map.exr --to "$shape" --size 128 --convention "$name"
+    must convert card.exr map.exr --to "$shape" --size 128 --convention "$name" -q
     coordinates=
     for axis in "${axes[@]}"; do coordinates+="$axis=$(turned "$axis" "$lookup") "; done
     shows map.exr "$coordinates" 0.03 --from-convention native
@@ -65,7 +73,7 @@ while IFS='|' read -r name centre right lookup; do
   done
   # Files of faces are named for what the program looks up, and are pictures seen from inside: a small sun 30° from +Z toward +X
   # and 10° up is left of +Z, whatever the program calls it.
-  must convert card.exr face-%s.pfm --to cube:faces --size 64 --convention "$name"
+  must convert card.exr face-%s.pfm --to cube:faces --size 64 --convention "$name" -q
   for axis in "${axes[@]}"; do
     face=${face_names[$(turned "$axis" "$lookup")]}
     near "$name: $axis in the middle of $face" "$(sample_along face-$face.pfm 0,1,0 --from octahedral)" "${card_colour[$axis]}" 0.03
@@ -78,10 +86,10 @@ while IFS='|' read -r name centre right lookup; do
   # In every layout, and back to a native cube.
   must convert card.exr plain.exr --to cube --size 32
   for layout in hcross vcross flat hstrip vstrip 3x2 bands openexr layers; do
-    must convert plain.exr turned.exr --to "cube:$layout" --convention "$name"
-    must convert turned.exr again.exr --to cube
+    must convert plain.exr turned.exr --to "cube:$layout" --convention "$name" -q
+    must convert turned.exr again.exr --to cube -q
     same plain.exr again.exr 0.01
-    must convert turned.exr again.exr
+    must convert turned.exr again.exr -q
     same plain.exr again.exr 0.01
   done
 done <<'END'
@@ -115,5 +123,29 @@ must convert card.exr probe.exr --to angular --size 256 --convention debevec
 shows probe.exr "0,0,-1=0,0,1 -1,0,0=1,0,0 0,1,0=0,1,0" 0.03 --from-convention native
 must convert card.exr ball.exr --to sphere --size 256 --convention debevec
 shows ball.exr "0,0,1=0,0,1 1,0,0=1,0,0 0,1,0=0,1,0" 0.03 --from-convention native
+
+# A convention that a file declares is kept, and told; a format that can't say so shows it all the same.
+name=kept
+must convert card.exr cube.ktx2 --to cube --size 32 --convention three.js
+says "is in the convention three.js, as cube.ktx2 is; --convention native turns it" convert cube.ktx2 again.ktx2
+matches '^  welkin.convention +three.js$' info again.ktx2 --header
+same cube.ktx2 again.ktx2 0 --from-convention native
+says "which the file cannot say" convert cube.ktx2 six-%s.pfm --to cube:faces
+must convert card.exr told-%s.pfm --to cube:faces --size 32 --convention three.js
+same told-%s.pfm six-%s.pfm 1e-3
+must convert cube.ktx2 panorama.exr --to latlong --size 128 -q
+shows panorama.exr "1,0,0=0,0,1 0,0,1=-1,0,0" 0.08 --from-convention native
+must convert cube.ktx2 native.ktx2 --convention native
+shows native.ktx2 "$declared" 0.1 --from-convention native
+
+# Mitsuba's rows lie on the poles.
+name=mitsuba
+says "is mitsuba-latlong, as mitsuba reads a latlong" convert card.exr rows.exr --to latlong --size 64 --convention mitsuba
+matches '^  parameterization  mitsuba-latlong' info rows.exr --header
+shows rows.exr "0,1,0=0,1,0 0,-1,0=0,-1,0" 0.02
+must convert card.exr rows.pfm --to latlong --size 64 --convention mitsuba -q
+same rows.exr rows.pfm 1e-6 --from mitsuba-latlong
+must synth axes drawn.exr --size 64 --samples 4 --convention mitsuba -q
+same rows.exr drawn.exr 0.15
 
 finish

@@ -125,7 +125,7 @@ for extension in exr ktx2 png tif hdr jpg; do
   matches '"parameterization": "cube:3x2"' info "kept.$extension" --header --json
   matches '"orientation"' info "kept.$extension" --header --json
   must synth axes cube.exr --to cube --size 16
-  must convert "kept.$extension" native.exr
+  must convert "kept.$extension" native.exr --convention native
   same cube.exr native.exr 0.2
   must synth axes "kept.$extension" --to latlong --size 21x17
   matches '"width": 21' info "kept.$extension" --header --json

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <sstream>
 
 #include "welkin/base/error.h"
 #include "welkin/map_file/chain_attributes.h"
@@ -18,19 +17,6 @@ namespace welkin::map_file {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<Matrix3> matrix_from(const std::string& text) {
-  std::istringstream in(text);
-  in.imbue(std::locale::classic());
-  Matrix3 m;
-  for (auto& row : m.rows) {
-    for (double& value : row) {
-      if (!(in >> value)) return std::nullopt;
-    }
-  }
-  if (!is_orthonormal(m)) return std::nullopt;
-  return m;
-}
 
 /// Whether a picture of this size can be of this shape: within one texel, or a hundredth, of the aspect.
 bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
@@ -283,7 +269,7 @@ void find_orientation(const Declaration& declaration, const io::FileInfo& file, 
     if (pose)
       info.image.warnings.push_back(pose_text(*file.panorama) +
                                     ": not used, since an orientation was asked for");
-  } else if (const auto declared = matrix_from(attribute(file, kOrientationKey))) {
+  } else if (const auto declared = declared_orientation(file)) {
     info.orientation = *declared;
   } else if (pose) {
     info.orientation = *pose;

@@ -180,6 +180,7 @@ WELKIN_API std::vector<std::filesystem::path> files_of(const std::filesystem::pa
 struct WriteMapOptions {
   io::WriteOptions image = {};  ///< type, compression, quality, metadata
   std::string faces = {};       ///< see with_faces
+  std::string convention = {};  ///< name of the one that the map's orientation is of, to be noted in the file
   int border = 0;  ///< texels of safety border to write around every chart (safety_border.h); the map's
                    ///< borders must be filled
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -21,6 +22,7 @@ inline constexpr const char* kShapeKey = "welkin.parameterization";
 inline constexpr const char* kFacesKey = "welkin.faces";
 inline constexpr const char* kChartKey = "welkin.chart";
 inline constexpr const char* kOrientationKey = "welkin.orientation";
+inline constexpr const char* kConventionKey = "welkin.convention";
 inline constexpr const char* kBorderKey = "welkin.border";
 using io::kChannelsKey;
 
@@ -71,6 +73,9 @@ inline std::string attribute(const io::FileInfo& file, const char* key) {
   const auto found = file.attributes.find(key);
   return found == file.attributes.end() ? std::string() : found->second;
 }
+
+/// The orientation that the file declares, if it is one.
+std::optional<Matrix3> declared_orientation(const io::FileInfo& file);
 
 /// Where a map is written to: a file, or several where its path has a `%s`, or a sink.
 struct Destination {

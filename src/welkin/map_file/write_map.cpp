@@ -31,6 +31,8 @@ io::WriteOptions declared(const io::Capabilities& format, const WrittenLevel& ma
     image.attributes[kChannelsKey] = alpha ? "R,G,B,A" : "R,G,B";
   }
   if (!options.faces.empty()) image.attributes[kFacesKey] = options.faces;
+  if (!options.convention.empty() && options.convention != "native")
+    image.attributes[kConventionKey] = options.convention;
   if (options.border > 0) image.attributes[kBorderKey] = std::to_string(options.border);
   if (options.border == 0) image.panorama = panorama_of(map.frame);
   // OpenEXR's attribute also says how the world lies: as the native one; and it knows no borders.

@@ -13,6 +13,7 @@
 #include "welkin/sphere/latlong_window.h"
 #include "welkin/sphere/mercator.h"
 #include "welkin/sphere/mirror_ball.h"
+#include "welkin/sphere/mitsuba.h"
 #include "welkin/sphere/octahedral.h"
 #include "welkin/sphere/octahedral_equal_area.h"
 #include "welkin/sphere/octahedral_perspective.h"
@@ -33,7 +34,8 @@ using AllParameterizations =
     TypeList<LatLong, EqualArea, SphereMap, MirrorBall, AngularMap, Cube, EquiAngularCube, DualParaboloid,
              Octahedral, OctahedralRect, OctahedralPerspective, OctahedralEqualArea, FisheyeEquidistant,
              FisheyeEquisolid, FisheyeOrthographic, FisheyeStereographic, HalfCube, HemiOctahedral,
-             SkyLatLong, Vr180, Cylinder, Mercator, Healpix, OpenExrLatLong, OpenExrCube, LatLongWindow>;
+             SkyLatLong, Vr180, Cylinder, Mercator, Healpix, OpenExrLatLong, OpenExrCube, MitsubaLatLong,
+             LatLongWindow>;
 
 /// Calls visit(name, value, minimum, maximum, description) for each parameter of `p`, if it has any. `value`
 /// is a double&, const when `p` is; a value that the visitor changes takes effect.

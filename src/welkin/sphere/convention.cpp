@@ -34,8 +34,8 @@ std::vector<Convention> make_conventions() {
        "OpenEXR, ImfEnvmap.h, \"Latitude-Longitude Map\""},
       {"usd", "USD DomeLight; as native", identity, identity, identity, identity,
        "OpenUSD, UsdLuxDomeLight, which quotes OpenEXR"},
-      {"mitsuba", "Mitsuba 3 envmap; as native", identity, identity, identity, identity,
-       "Mitsuba 3, src/emitters/envmap.cpp, direction_to_uv"},
+      {"mitsuba", "Mitsuba 3 envmap; as native, a lat-long as mitsuba-latlong", identity, identity, identity,
+       identity, "Mitsuba 3, src/emitters/envmap.cpp, direction_to_uv and eval_spectrum", "mitsuba-latlong"},
       {"godot", "Godot 4 PanoramaSkyMaterial and cube maps; as native", identity, identity, identity,
        identity, "Godot, servers/rendering/renderer_rd/shaders/environment/sky.glsl, panorama_coords"},
       {"filament", "Filament and cmgen; as native", identity, identity, identity, identity,
@@ -116,6 +116,12 @@ Matrix3 orientation_for(const Convention& convention, const sphere::AnyParameter
       break;
   }
   return {};
+}
+
+sphere::AnyParameterization parameterization_for(const Convention& convention,
+                                                 const sphere::AnyParameterization& parameterization) {
+  if (parameterization.spec() != "latlong" || convention.latlong_as == "latlong") return parameterization;
+  return sphere::AnyParameterization::make(convention.latlong_as);
 }
 
 }  // namespace welkin

@@ -33,6 +33,8 @@ struct Convention {
   Matrix3 world;
   /// Where the look-up can be read: file names and functions, or a document.
   std::string source;
+  /// The parameterization that the program's lat-longs have, where it isn't `latlong`: `mitsuba-latlong`.
+  std::string latlong_as = "latlong";
 };
 
 /// All presets, immutable. The first is `native`: identity.
@@ -46,5 +48,10 @@ WELKIN_API const Convention& convention_from_name(std::string_view name);
 /// no program has a convention for (Projection::unturned: photographs of balls, the half-cube).
 WELKIN_API Matrix3 orientation_for(const Convention& convention,
                                    const sphere::AnyParameterization& parameterization);
+
+/// What a map of this parameterization is in a file of this convention: Convention::latlong_as of a `latlong`
+/// that is no window, and any other as it is.
+WELKIN_API sphere::AnyParameterization parameterization_for(
+    const Convention& convention, const sphere::AnyParameterization& parameterization);
 
 }  // namespace welkin

@@ -174,6 +174,31 @@ TEST(Convention, BallsAndHalfCubesAreNeverTurned) {
   }
 }
 
+/// Mitsuba reads texel (x, y) of W×H, which has a copy of its first column at its end, at
+/// u (W + 1 − 1) − ½ and v (H − 1), where u = atan2(x, −z)/2π and v = acos(y)/π.
+TEST(Convention, MitsubasRowsEndAtThePoles) {
+  const Convention& mitsuba = convention_from_name("mitsuba");
+  constexpr int kWidth = 16, kHeight = 8;
+  const auto p = parameterization_for(mitsuba, latlong()).at_size(kWidth, kHeight);
+  EXPECT_EQ(p.name(), "mitsuba-latlong");
+  const Matrix3 orientation = orientation_for(mitsuba, p);
+  for (const Vec3d& d : directions(500)) {
+    const Position at = from_left_edge(d);
+    const auto ours = p.from_sphere(orientation * d);
+    EXPECT_NEAR(std::remainder(ours.u * kWidth - 0.5 - (at.u * kWidth - 0.5), kWidth), 0, 1e-12);
+    EXPECT_NEAR(ours.v * kHeight - 0.5, at.v * (kHeight - 1), 1e-12);
+  }
+  for (int y = 0; y < kHeight; ++y)
+    EXPECT_NEAR(p.to_sphere(0, 0.5, (y + 0.5) / kHeight).y, std::cos(y * kPi / (kHeight - 1)), 1e-12);
+  const auto window = AnyParameterization::make("latlong,top=0");
+  EXPECT_EQ(parameterization_for(mitsuba, window), window);
+  EXPECT_EQ(parameterization_for(mitsuba, cube()), cube());
+  for (const Convention& each : conventions()) {
+    const auto written = parameterization_for(each, latlong());
+    EXPECT_EQ(written.name(), each.name == "mitsuba" ? "mitsuba-latlong" : "latlong") << each.name;
+  }
+}
+
 TEST(Convention, UnknownNamesSuggestTheNearest) {
   try {
     convention_from_name("threejs");

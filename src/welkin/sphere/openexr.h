@@ -8,8 +8,9 @@ namespace welkin::sphere {
 /// A parameterization whose outermost texel centres, not their outer edges, lie on the edges of its charts,
 /// as the OpenEXR `envmap` attribute declares (ImfEnvmap.h): the first and last column of such a lat-long
 /// show the same meridian, its first and last row the poles. How far the edges are in depends on the size, so
-/// that is a parameter. The outer halves of the outermost texels are not valid.
-template <class P>
+/// that is a parameter. The outer halves of the outermost texels are not valid. Without `kColumns` only rows
+/// lie so.
+template <class P, bool kColumns = true>
 struct EdgeCentred {
   static constexpr int kCharts = P::kCharts;
   P inner;
@@ -18,12 +19,12 @@ struct EdgeCentred {
 
   template <class Visitor>
   void visit_parameters(Visitor&& visit) {
-    visit("width", width, 2.0, 1048576.0, "texels across a chart");
+    if constexpr (kColumns) visit("width", width, 2.0, 1048576.0, "texels across a chart");
     visit("height", height, 2.0, 1048576.0, "texels down a chart");
   }
   template <class Visitor>
   void visit_parameters(Visitor&& visit) const {
-    visit("width", width, 2.0, 1048576.0, "texels across a chart");
+    if constexpr (kColumns) visit("width", width, 2.0, 1048576.0, "texels across a chart");
     visit("height", height, 2.0, 1048576.0, "texels down a chart");
   }
   void update() {}
@@ -33,22 +34,22 @@ struct EdgeCentred {
 
   template <class T>
   Vec3<T> to_sphere(int chart, T u, T v) const {
-    return inner.to_sphere(chart, inward(u, width), inward(v, height));
+    return inner.to_sphere(chart, inward_across(u), inward(v, height));
   }
   template <class T>
   ChartPoint<T> from_sphere(const Vec3<T>& d) const {
     const ChartPoint<T> position = inner.from_sphere(d);
-    return {position.chart, outward(position.u, width), outward(position.v, height)};
+    return {position.chart, kColumns ? outward(position.u, width) : position.u, outward(position.v, height)};
   }
   template <class T>
   T solid_angle_density(int chart, T u, T v) const {
-    return constant<T>(width / (width - 1) * (height / (height - 1))) *
-           inner.solid_angle_density(chart, inward(u, width), inward(v, height));
+    return constant<T>((kColumns ? width / (width - 1) : 1) * (height / (height - 1))) *
+           inner.solid_angle_density(chart, inward_across(u), inward(v, height));
   }
   template <class T>
   Mask<T> valid(int chart, T u, T v) const {
     const T low = constant<T>(-1e-6), high = constant<T>(1 + 1e-6);
-    const T x = inward(u, width), y = inward(v, height);
+    const T x = inward_across(u), y = inward(v, height);
     return inner.valid(chart, x, y) & (x > low) & (x < high) & (y > low) & (y < high);
   }
   template <class T>
@@ -57,6 +58,14 @@ struct EdgeCentred {
   }
 
  private:
+  template <class T>
+  T inward_across(const T& u) const {
+    if constexpr (kColumns) {
+      return inward(u, width);
+    } else {
+      return u;
+    }
+  }
   template <class T>
   static T inward(const T& u, double size) {
     return constant<T>(size / (size - 1)) * u - constant<T>(0.5 / (size - 1));
