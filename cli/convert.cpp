@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "convert_curve.h"
 #include "energy_report.h"
 #include "json_text.h"
 #include "progress.h"
@@ -36,6 +37,7 @@ ResampleOptions of_means(ResampleOptions options) {
 
 struct Convert {
   std::string in, out, to, size, filter = "auto", rotation, convention, fill, format;
+  CurveFlags curve;
   ReadFlags read;
   WriteFlags write;
   SanitizeFlags repair;
@@ -90,11 +92,14 @@ void Convert::run() const {
   std::optional<MapShape> shape;
   if (!to.empty()) shape = parse_option("--to", [&] { return parse_map_shape_for(out, to); });
   if (!convention.empty()) parse_option("--to-convention", [&] { return convention_from_name(convention); });
+  curve.parse(out, read);
   if (shape) check_output(out, *shape, write);
   if (shape && !size.empty()) parse_chart_size("--size", size, shape->parameterization);
 
   MapReader reader = read.open(in);
-  const MapFileInfo& info = reader.info();
+  MapFileInfo info = reader.info();
+  std::vector<Map> remixed;
+  if (curve.asked()) remixed = curve.levels(reader, in, out, info);
   const int first = read.level.value_or(0);
   int levels = levels_for(info);
   shape = to.empty() ? shape_for_copy(info, out, levels) : parse_map_shape_for(out, to, levels);
@@ -132,8 +137,8 @@ void Convert::run() const {
       chain.levels.push_back(std::move(target));
       continue;
     }
-    if (levels > 1) reader.set_level(level);
-    Map source = reader.read();
+    if (levels > 1 && remixed.empty()) reader.set_level(level);
+    Map source = remixed.empty() ? reader.read() : std::move(remixed[static_cast<std::size_t>(level)]);
     if (level == 0) {
       check_output(out, *shape, write);
       if (options.fill.size() > static_cast<std::size_t>(source.channels())) {
@@ -343,6 +348,7 @@ void add_convert(CLI::App& app) {
       "Rotate the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
   command->add_option("--convention,--to-convention", convert->convention,
                       "World of the output: three.js, blender… (`welkin list conventions`)");
+  convert->curve.add(*command);
   command->add_option("--exposure", convert->exposure, "Brighten by this many stops")->check(finite_number());
   command->add_option("--scale", convert->scale, "Multiply radiance")->check(finite_number());
   command->add_option(

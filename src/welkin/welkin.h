@@ -87,6 +87,7 @@
 #include "welkin/plot/draw_lobes.h"
 #include "welkin/plot/mip_sheet.h"
 #include "welkin/prefilter/bake.h"
+#include "welkin/prefilter/change_curve.h"
 #include "welkin/prefilter/lobe_sum_bake.h"
 #include "welkin/prefilter/paraboloid_convolution.h"
 #include "welkin/prefilter/prefilter.h"

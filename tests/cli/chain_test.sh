@@ -222,4 +222,25 @@ same cube.ktx2 unity.ktx2 5e-3
 near "the native world" "$(sample_along cube.ktx2 1,0,0)" "${card_colour[1,0,0]}" 0.02
 near "reflected worlds" "$(sample_along unity.ktx2 1,0,0 --from-convention native)" "${card_colour[-1,0,0]}" 0.02
 
+# Another curve without a new bake: interpolated, which is told.
+must synth room room.exr --size 256
+must bake room.exr linear.ktx2 --size 64 --levels 5
+run convert linear.ktx2 three.ktx2 --roughness-curve three.js --levels 4
+checks=$((checks + 1))
+((status == 0)) && grep -q "interpolated between those of linear.ktx2, by roughness, .* about 0 [0-9.]* [0-9.]* [0-9.]* %" "$work/messages" ||
+  fail "--roughness-curve says: $(cat "$work/messages")"
+matches '^  welkin.roughness-curve +three.js$' info three.ktx2 --header
+matches '^  welkin.roughness +0,0.1835034[0-9]*,0.4226497[0-9]*,1$' info three.ktx2 --header
+must bake room.exr fresh.ktx2 --size 64 --levels 4 --roughness three.js
+near "the last level" "$(sample_along three.ktx2 0,1,0 --level 3)" "$(sample_along fresh.ktx2 0,1,0 --level 3)" 0.1
+must convert linear.ktx2 padded.exr --roughness-curve 0,0.5,1,1 -q
+matches '^  level 3 +charts 8×8, roughness 1' info padded.exr
+refuses 2 '--level: --roughness-curve makes all levels' convert linear.ktx2 no.ktx2 --roughness-curve godot --level 1
+refuses 2 '--roughness-curve: no.hdr: the format holds one level' convert linear.ktx2 no.hdr --roughness-curve godot
+refuses 2 '--levels: counts those of --roughness-curve' convert linear.ktx2 no.ktx2 --levels 3
+refuses 2 '--roughness-curve: charts of 64x64 have 7 levels, not 9' convert linear.ktx2 no.ktx2 --roughness-curve godot --levels 9
+must convert linear.ktx2 plain.ktx2 --to cube --size 16 --level 0
+must synth room mips.ktx2 --to cube --size 16
+refuses 1 "mips.ktx2: doesn't say which roughness its levels have" convert mips.ktx2 no.ktx2 --roughness-curve godot
+
 finish
