@@ -68,11 +68,11 @@ export function expected({ welkin, map, chain, engine, ball, size, views }) {
   };
 }
 
-export function shown(pictures, ball, pixels) {
+export function shown(pictures, map, ball, pixels) {
   const values = new Float64Array(3 * pixels.length);
   pixels.forEach(({ index, number }, i) => {
-    const picture = pictures.get(`${ball}-${number}`);
-    if (!picture) throw new Error(`the page has not shown ${ball}-${number}`);
+    const picture = pictures.get(`${map}-${ball}-${number}`);
+    if (!picture) throw new Error(`the page has not shown ${map}-${ball}-${number}`);
     for (let k = 0; k < 3; ++k) values[3 * i + k] = picture[3 * index + k];
   });
   return values;

@@ -27,6 +27,7 @@ if ! cmp -s -- "$here/package-lock.json" installed-lock.json; then
   cp -- "$here/package.json" "$here/package-lock.json" .
   npm ci --ignore-scripts --no-audit --no-fund >npm.log 2>&1 ||
     fail "npm cannot install the engines, which needs the network once in a build folder: $(grep -im 2 "^npm err" npm.log)"
+  rm -rf node_modules/@cesium node_modules/cesium/Source node_modules/cesium/Build/CesiumUnminified
   find node_modules -type f \( -name '*.map' -o -name '*.d.ts' -o -name '*.md' -o -path '*.dbg*' \) -delete
   cp -- package-lock.json installed-lock.json
 fi

@@ -6,5 +6,8 @@ export const MODULES = {
   three: {
     imports: { three: "/node_modules/three/build/three.module.js", "three/addons/": "/node_modules/three/examples/jsm/" },
   },
+  cesium: {
+    head: '<script>CESIUM_BASE_URL = "/node_modules/cesium/Build/Cesium/"</script><script src="/node_modules/cesium/Build/Cesium/Cesium.js"></script>',
+  },
   filament: { head: '<script src="/node_modules/filament/filament.js"></script>' },
 };

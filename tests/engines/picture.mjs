@@ -34,16 +34,18 @@ export function png(width, height, rgb) {
 
 const encoded = (x) => 255 * Math.min(1, x <= 0.0031308 ? 12.92 * Math.max(0, x) : 1.055 * x ** (1 / 2.4) - 0.055);
 
+const BRIGHTNESS = { axes: 1, room: 0.25 };
+
 // A row for each map: every ball, in every view.
-export function sheet(rows, balls, views, size) {
-  const columns = balls.length * views, width = columns * size, height = rows.length * size;
+export function sheet(pictures, maps, balls, views, size) {
+  const columns = balls.length * views, width = columns * size, height = maps.length * size;
   const rgb = new Uint8Array(3 * width * height);
-  rows.forEach((pictures, row) => {
+  maps.forEach((map, row) => {
     for (let column = 0; column < columns; ++column) {
-      const picture = pictures.get(`${balls[Math.floor(column / views)]}-${column % views}`);
+      const picture = pictures.get(`${map}-${balls[Math.floor(column / views)]}-${column % views}`);
       for (let y = 0; y < size; ++y) {
         for (let i = 0; i < 3 * size; ++i) {
-          rgb[3 * ((row * size + y) * width + column * size) + i] = encoded(picture[3 * y * size + i]);
+          rgb[3 * ((row * size + y) * width + column * size) + i] = encoded(BRIGHTNESS[map] * picture[3 * y * size + i]);
         }
       }
     }

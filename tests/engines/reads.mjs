@@ -49,4 +49,14 @@ export const READS = {
     toNormal: () => 0,
     latlong: (level) => `${(512 >> level) - 2}x${(256 >> level) - 2}`,
   },
+
+  // ImageBasedLightingStageFS (textureIBL, of which a white metal's multiple scattering is 1 − single), BrdfLutGeneratorFS
+  cesium: {
+    level: (r, last) => last * r,
+    least: 0,
+    toNormal: () => 0,
+    metal: (E, L, D) => E * L + (1 - E) * D,
+    albedo: "khronos",
+    diffuseDegree: 2,
+  },
 };

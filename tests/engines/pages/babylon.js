@@ -9,42 +9,38 @@ const MATERIALS = {
 // A left-handed world has our −x as its x: what is mirrored there is seen as we see it here.
 const mirrored = (numbers) => numbers.map((x, i) => (i % 3 === 0 ? -x : x));
 
-export async function draw({ size, views, folder, leftHanded, loadLight, show }) {
+export async function draw({ size, views, maps, leftHanded, loadLight, show }) {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = size;
   const engine = new BABYLON.Engine(canvas, false), scene = new BABYLON.Scene(engine);
   scene.useRightHandedSystem = !leftHanded;
   scene.imageProcessingConfiguration.applyByPostProcess = true;  // so that materials show linear values
   scene.imageProcessingConfiguration.skipFinalColorClamp = true;
-  await loadLight({ scene, folder });
-  const light = scene.environmentTexture;
-  await new Promise((resolve, reject) => {
-    if (light.isReady()) resolve();
-    else BABYLON.Texture.WhenAllReady([light], resolve);
-    setTimeout(() => reject(new Error("the light has not been loaded within 60 s")), 60000);
-  });
-
   const own = leftHanded ? mirrored : (numbers) => numbers;
   const camera = new BABYLON.FreeCamera("camera", new BABYLON.Vector3(), scene);
   Object.assign(camera, { fov: FIELD_OF_VIEW, minZ: 1, maxZ: 2 * EYE_DISTANCE });
   const target = new BABYLON.RenderTargetTexture("balls", size, scene, { generateMipMaps: false, type: BABYLON.Constants.TEXTURETYPE_FLOAT });
   target.activeCamera = camera;
-  for (const [number, toward] of views.entries()) {
-    const { positions, normals, indices } = ballMesh(size, toward);
-    camera.position.set(...own(cameraAxes(toward).eye));
-    camera.setTarget(BABYLON.Vector3.Zero());
-    for (const [ball, parameters] of Object.entries(MATERIALS)) {
-      const mesh = new BABYLON.Mesh(ball, scene), material = new BABYLON.PBRMaterial(ball, scene);
-      Object.assign(new BABYLON.VertexData(), { positions: own(positions), normals: own(normals), indices }).applyToMesh(mesh);
-      Object.assign(material, parameters, { albedoColor: BABYLON.Color3.White(), backFaceCulling: false });
-      mesh.material = material;
-      target.renderList = [mesh];
-      await material.forceCompilationAsync(mesh);
-      await scene.whenReadyAsync();
-      target.render();
-      const pixels = await target.readPixels();
-      mesh.dispose();
-      await show(`${ball}-${number}`, upright(pixels, size));
+  for (const map of maps) {
+    await loadLight({ scene, folder: `/set/${map}` });
+    await new Promise((resolve) => BABYLON.Texture.WhenAllReady([scene.environmentTexture], resolve));
+    for (const [number, toward] of views.entries()) {
+      const { positions, normals, indices } = ballMesh(size, toward);
+      camera.position.set(...own(cameraAxes(toward).eye));
+      camera.setTarget(BABYLON.Vector3.Zero());
+      for (const [ball, parameters] of Object.entries(MATERIALS)) {
+        const mesh = new BABYLON.Mesh(ball, scene), material = new BABYLON.PBRMaterial(ball, scene);
+        Object.assign(new BABYLON.VertexData(), { positions: own(positions), normals: own(normals), indices }).applyToMesh(mesh);
+        Object.assign(material, parameters, { albedoColor: BABYLON.Color3.White(), backFaceCulling: false });
+        mesh.material = material;
+        target.renderList = [mesh];
+        await material.forceCompilationAsync(mesh);
+        await scene.whenReadyAsync();
+        target.render();
+        const pixels = await target.readPixels();
+        mesh.dispose();
+        await show(`${map}-${ball}-${number}`, upright(pixels, size));
+      }
     }
   }
 }

@@ -23,7 +23,7 @@ function readTexture(gl, texture, size) {
   return pixels;
 }
 
-export async function draw({ size, views, folder, loadLight, show }) {
+export async function draw({ size, views, maps, loadLight, show }) {
   await new Promise((resolve) => Filament.init([], resolve));
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = size;
@@ -42,25 +42,25 @@ export async function draw({ size, views, folder, loadLight, show }) {
   camera.setProjectionFov((FIELD_OF_VIEW * 180) / Math.PI, 1, 1, 2 * EYE_DISTANCE, Filament.Camera$Fov.VERTICAL);
   camera.setExposure(1, 1.2, 100);  // 1 cd/m² becomes 1
 
-  await loadLight({ engine, scene, folder });
-
-  for (const [number, toward] of views.entries()) {
-    const mesh = ballMesh(size, toward);
-    camera.lookAt(cameraAxes(toward).eye, [0, 0, 0], [0, 1, 0]);
-    for (const [ball, material] of Object.entries(MATERIALS)) {
-      const loader = engine.createAssetLoader(), asset = loader.createAsset(glb(mesh, material));
-      await new Promise((resolve) => asset.loadResources(resolve));
-      scene.addEntities(asset.getRenderableEntities());
-      let pixels = null;
-      // Materials are compiled, and textures filled, in the frames before.
-      for (let frame = 0; frame < 3; ++frame) {
-        renderer.render(chain, view);
-        engine.execute();
-        await new Promise(requestAnimationFrame);
+  for (const map of maps) {
+    await loadLight({ engine, scene, folder: `/set/${map}` });
+    for (const [number, toward] of views.entries()) {
+      const mesh = ballMesh(size, toward);
+      camera.lookAt(cameraAxes(toward).eye, [0, 0, 0], [0, 1, 0]);
+      for (const [ball, material] of Object.entries(MATERIALS)) {
+        const loader = engine.createAssetLoader(), asset = loader.createAsset(glb(mesh, material));
+        await new Promise((resolve) => asset.loadResources(resolve));
+        scene.addEntities(asset.getRenderableEntities());
+        // Materials are compiled, and textures filled, in the frames before.
+        for (let frame = 0; frame < 3; ++frame) {
+          renderer.render(chain, view);
+          engine.execute();
+          await new Promise(requestAnimationFrame);
+        }
+        const pixels = readTexture(gl, seen.texture, size);
+        for (const entity of asset.getRenderableEntities()) scene.remove(entity);
+        await show(`${map}-${ball}-${number}`, upright(pixels, size));
       }
-      pixels = readTexture(gl, seen.texture, size);
-      for (const entity of asset.getRenderableEntities()) scene.remove(entity);
-      await show(`${ball}-${number}`, upright(pixels, size));
     }
   }
 }
