@@ -37,15 +37,22 @@ const fileName = (name) => name.replace(/[^a-z0-9]+/g, "-");
 
 // The set's files, by its own commands, in a folder for this map.
 function bakeSet(name, map) {
-  const set = `${fileName(name)}/${map}`;
+  const set = `${fileName(name)}/${map}`, wanted = sets[name];
   mkdirSync(join(work, set), { recursive: true });
-  for (const [file, line] of Object.entries(sets[name].files)) {
+  if (wanted.for) return welkin.make(`welkin bake ${map}.exr ${set}/ --for ${wanted.for}`);
+  for (const [file, line] of Object.entries(wanted.files)) {
     welkin.make(line.replace("sky.exr", `${map}.exr`).replace(` ${file}`, ` ${set}/${file}`));
   }
 }
 
+// The code that loads it, as its page shows it.
+function snippetOf(name) {
+  if (!sets[name].for) return sets[name].snippet.join("\n");
+  return JSON.parse(readFileSync(join(work, fileName(name), MAPS[0], "manifest.json"), "utf8")).snippet;
+}
+
 function draw(name) {
-  const { module, page, leftHanded, own, snippet } = sets[name], { head, imports } = MODULES[module];
+  const { module, page, leftHanded, own } = sets[name], { head, imports } = MODULES[module];
   const html = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">${head ?? ""}
 <script type="importmap">${JSON.stringify({ imports: imports ?? {} })}</script>
 <body><script type="module" src="/pages/page.js"></script>`;
@@ -54,7 +61,7 @@ function draw(name) {
     texts: {
       "/": { type: "text/html", text: html },
       "/task": { type: "application/json", text: JSON.stringify({ page, leftHanded, size: SIZE, views: VIEWS, maps: MAPS }) },
-      "/snippet.js": { type: "text/javascript", text: snippet.join("\n") },
+      "/snippet.js": { type: "text/javascript", text: snippetOf(name) },
     },
     seconds: own ? SECONDS_TO_FILTER : SECONDS,
   });

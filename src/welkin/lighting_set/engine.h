@@ -33,6 +33,7 @@ struct SetFile {
   int width = 0;                      ///< of maps: a chart's, level 0; 0 of a background: the source's detail
   int levels = 1;                     ///< of chains; 0: as many as the size has
   std::string curve = "linear";       ///< of chains: which roughness each level has
+  bool mirror_level0 = false;         ///< of chains: level 0 is a mirror's, whatever the curve says
   std::string convention = "native";  ///< of maps and harmonics: the engine's world
   std::string type = {};              ///< of texels, by the name of a pixel type; empty: the format's best
   std::string compression = {};       ///< empty: the format's own

@@ -2,6 +2,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/lighting_set/engine.h"
+#include "welkin/lighting_set/resources.h"
 
 namespace welkin {
 namespace {
@@ -80,11 +81,7 @@ Engine general() {
       table_file("dfg.ktx2", "f0 · red + f90 · green, over n·v and roughness", "bevy", "half"),
       harmonics_file("harmonics.json", "radiance, real orthonormal, order 2", "orthonormal", "native"),
   };
-  engine.snippet = R"(// GLSL
-vec3 diffuse = albedo * textureLod(diffuse_map, n, 0.0).rgb;
-vec2 dfg = texture(dfg_table, vec2(dot(n, v), roughness)).rg;
-vec3 specular = textureLod(specular_map, reflect(-v, n), roughness * (levels - 1.0)).rgb * (f0 * dfg.x + dfg.y);
-)";
+  engine.snippet = lighting_set::snippet("general.glsl");
   return engine;
 }
 
@@ -111,13 +108,7 @@ Engine three_js() {
   engine.limits.power_of_two = true;
   engine.limits.narrowest = 64;
   engine.limits.width_reason = "it reads faces of a power of two, from 64 on";
-  engine.snippet = R"(import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
-
-const loader = new KTX2Loader().setTranscoderPath('basis/').detectSupport(renderer);
-const environment = await loader.loadAsync('environment.ktx2');
-environment.isPMREMTexture = true;
-scene.environment = environment;
-)";
+  engine.snippet = lighting_set::snippet("three.js");
   return engine;
 }
 
@@ -130,13 +121,7 @@ Engine older_three_js() {
   engine.source = "src/extras/PMREMGenerator.js, examples/jsm/loaders/RGBELoader.js";
   engine.files = {panorama_file("panorama.hdr", "scene.environment and scene.background", "three.js"),
                   harmonics_file("harmonics.json", "for a LightProbe", "three.js", "three.js")};
-  engine.snippet = R"(import * as THREE from 'three';
-import { RGBELoader } from 'three/addons/loaders/RGBELoader.js';
-
-const panorama = await new RGBELoader().loadAsync('panorama.hdr');
-panorama.mapping = THREE.EquirectangularReflectionMapping;
-scene.environment = scene.background = panorama;
-)";
+  engine.snippet = lighting_set::snippet("three.js-r186.js");
   return engine;
 }
 
@@ -147,7 +132,7 @@ Engine model_viewer() {
   engine.summary = "a panorama, which it filters itself";
   engine.source = "packages/model-viewer/src/three-components/TextureUtils.ts";
   engine.files = {panorama_file("panorama.hdr", "environment-image and skybox-image", "three.js")};
-  engine.snippet = "<model-viewer src=\"model.glb\" environment-image=\"panorama.hdr\"></model-viewer>\n";
+  engine.snippet = lighting_set::snippet("model-viewer.html");
   return engine;
 }
 
@@ -175,11 +160,7 @@ Engine filament() {
   engine.limits.levels_reason = "its shader reads five levels";
   engine.limits.power_of_two = true;
   engine.limits.width_reason = "its levels halve faces of a power of two";
-  engine.snippet = R"(const ibl = engine.createIblFromKtx1('environment_ibl.ktx');
-scene.setIndirectLight(ibl);
-const sky = engine.createSkyFromKtx1('environment_skybox.ktx');
-scene.setSkybox(sky);
-)";
+  engine.snippet = lighting_set::snippet("filament.js");
   return engine;
 }
 
@@ -201,11 +182,7 @@ Engine playcanvas() {
   engine.limits.levels_reason = "its atlas has six levels";
   engine.limits.power_of_two = true;
   engine.limits.width_reason = "its atlas has faces of a power of two";
-  engine.snippet = R"(const asset = new pc.Asset('environment', 'cubemap', { url: 'environment.dds' });
-app.assets.add(asset);
-app.assets.load(asset);
-asset.ready(() => { app.scene.envAtlas = pc.EnvLighting.generatePrefilteredAtlas([asset.resource]); });
-)";
+  engine.snippet = lighting_set::snippet("playcanvas.js");
   return engine;
 }
 
@@ -218,13 +195,13 @@ Engine babylon(bool right_handed) {
   engine.source = "packages/dev/core/src/Misc/environmentTextureTools.ts";
   engine.files = {specular_file("environment.dds", "reflections, background and diffuse light", 256, 0,
                                 "babylon", right_handed ? "babylon-right-handed" : "babylon", "half")};
+  // The curve begins at roughness 1/16, below which the engine reads level 0 too.
+  engine.files[0].mirror_level0 = true;
   engine.limits.all_levels = true;
   engine.limits.levels_reason = "an .env file has all levels, down to one texel";
   engine.limits.power_of_two = true;
   engine.limits.width_reason = "an .env file has faces of a power of two";
-  engine.snippet =
-      "scene.environmentTexture = BABYLON.CubeTexture.CreateFromPrefilteredData('environment.env', scene);\n"
-      "scene.createDefaultSkybox(scene.environmentTexture, true);\n";
+  engine.snippet = lighting_set::snippet("babylon.js");
   return engine;
 }
 
@@ -243,12 +220,7 @@ Engine cesium() {
   engine.limits.types_reason = "its loader takes KTX2 cubes of half and float without supercompression";
   engine.limits.power_of_two = true;
   engine.limits.width_reason = "its loader takes faces of a power of two";
-  engine.snippet = R"(const lighting = new Cesium.ImageBasedLighting();
-lighting.specularEnvironmentMaps = 'environment.ktx2';
-const { coefficients } = await (await fetch('harmonics.json')).json();
-lighting.sphericalHarmonicCoefficients = coefficients.map(([r, g, b]) => new Cesium.Cartesian3(r, g, b));
-model.imageBasedLighting = lighting;
-)";
+  engine.snippet = lighting_set::snippet("cesium.js");
   return engine;
 }
 
@@ -265,13 +237,7 @@ Engine bevy() {
   };
   engine.limits.types = {"rgb9e5", "half", "r11g11b10", "bc6h"};
   engine.limits.types_reason = "it filters the texture, which graphics cards don't of 32-bit floats";
-  engine.snippet = R"(commands.spawn((Camera3d::default(), EnvironmentMapLight {
-    diffuse_map: assets.load("diffuse.ktx2"),
-    specular_map: assets.load("specular.ktx2"),
-    intensity: 1000.0,
-    ..default()
-}));
-)";
+  engine.snippet = lighting_set::snippet("bevy.rs");
   return engine;
 }
 
@@ -282,11 +248,7 @@ Engine godot() {
   engine.summary = "a panorama, which it filters itself";
   engine.source = "scene/resources/3d/sky_material.cpp";
   engine.files = {panorama_file("panorama.exr", "PanoramaSkyMaterial.panorama", "godot", "half")};
-  engine.snippet = R"(var sky := Sky.new()
-sky.sky_material = PanoramaSkyMaterial.new()
-sky.sky_material.panorama = load("res://panorama.exr")
-$WorldEnvironment.environment.sky = sky
-)";
+  engine.snippet = lighting_set::snippet("godot.gd");
   return engine;
 }
 

@@ -111,6 +111,7 @@ class SetMaker {
     options.target = shape_of(file).parameterization;
     options.size = ChartSize{file.width, height_of(options.target, file.width)};
     options.levels = is_chain(file) ? file.levels : 0;
+    options.mirror_level0 = is_chain(file) && file.mirror_level0;
     options.prefilter.tolerance = options_.tolerance;
     options.prefilter.orientation = orientation_for(convention_from_name(file.convention), options.target);
     options.prefilter.mirror_filter = options_.mirror_filter;

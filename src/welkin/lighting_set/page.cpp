@@ -12,7 +12,7 @@
 #include "welkin/io/shared_exponent.h"
 #include "welkin/lighting_set/encoded_files.h"
 #include "welkin/lighting_set/page_pictures.h"
-#include "welkin/lighting_set/page_resources.h"
+#include "welkin/lighting_set/resources.h"
 #include "welkin/map/borders.h"
 
 namespace welkin {

@@ -44,6 +44,7 @@ export async function draw({ size, views, maps, loadLight, show }) {
 
   for (const map of maps) {
     await loadLight({ engine, scene, folder: `/set/${map}` });
+    scene.setSkybox(null);  // the texture has no depth: the sky would lie over the balls
     for (const [number, toward] of views.entries()) {
       const mesh = ballMesh(size, toward);
       camera.lookAt(cameraAxes(toward).eye, [0, 0, 0], [0, 1, 0]);
