@@ -13,11 +13,11 @@ using namespace texture;
 uastc::Search search_of(TextureQuality quality) {
   switch (quality) {
     case TextureQuality::fast:
-      return {1, 1, false, 0};
+      return {1, false, 0, 1, 1, 0};
     case TextureQuality::normal:
-      return {2, 2, true, 1};
+      return {1, false, 1, 2, 2, 1};
     default:
-      return {4, 3, true, 4};
+      return {3, true, 1, 4, 2, 2};
   }
 }
 

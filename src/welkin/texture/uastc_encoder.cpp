@@ -1,6 +1,7 @@
 #include "welkin/texture/uastc_encoder.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "welkin/texture/bc6h_block.h"
@@ -40,6 +41,19 @@ const std::array<Shape, kShapes> kShapeTable = {{{1, 11, k16, k192},
 
 namespace {
 
+/// The indices that weights become, in ascending order: of two regions' three bits, or of one region's four.
+const std::vector<int>& bc6h_indices(int count) {
+  static const std::map<int, std::vector<int>> all = {
+      {3, {0, 4, 7}},
+      {4, {0, 2, 5, 7}},
+      {5, {0, 2, 4, 5, 7}},
+      {6, {0, 1, 3, 4, 6, 7}},
+      {8, {0, 1, 2, 3, 4, 5, 6, 7}},
+      {12, {0, 1, 2, 4, 5, 6, 9, 10, 11, 13, 14, 15}},
+      {16, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}}};
+  return all.at(count);
+}
+
 Weights weights_of(int range) {
   const int count = astc::kRangeTable[static_cast<std::size_t>(range)].levels;
   const auto& values = astc::weight_values(range);
@@ -49,7 +63,11 @@ Weights weights_of(int range) {
   std::sort(weights.code, weights.code + count, [&](int a, int b) {
     return values[static_cast<std::size_t>(a)] < values[static_cast<std::size_t>(b)];
   });
-  for (int i = 0; i < count; ++i) weights.weight[i] = values[weights.code[i]];
+  const std::vector<int>& indices = bc6h_indices(count);
+  for (int i = 0; i < count; ++i) {
+    weights.weight[i] = values[weights.code[i]];
+    weights.bc6h[i] = (count > 8 ? bc6h::kWeights4 : bc6h::kWeights3)[indices[static_cast<std::size_t>(i)]];
+  }
   return weights;
 }
 
@@ -63,7 +81,7 @@ std::array<Partition, kPartitions> common_partitions() {
       unsigned second = 0;
       for (unsigned i = 0; i < astc::kTexels; ++i) second |= static_cast<unsigned>(texels[i]) << i;
       if (second != wanted.second && (second ^ 0xffff) != wanted.second) continue;
-      found.at(count++) = {seed, static_cast<std::uint16_t>(second)};
+      found.at(count++) = {seed, second != wanted.second, static_cast<std::uint16_t>(second)};
       break;
     }
   }

@@ -45,12 +45,14 @@ extern const std::array<Shape, kShapes> kShapeTable;
 struct Weights {
   int count = 0;
   int weight[16] = {};
+  int bc6h[16] = {};  ///< the weights that they become as BC6H
   std::uint8_t code[16] = {};
 };
 
 /// A partition by the lowest seed of ASTC's that makes it, and its second region's texels, a bit each.
 struct Partition {
   int seed;
+  bool swapped;  ///< whether BC6H's regions are the other way round
   std::uint16_t second;
 };
 inline constexpr int kPartitions = 27;
@@ -65,10 +67,12 @@ struct Tables {
 
 /// How long the search is.
 struct Search {
-  int partitions;  ///< of the best by rank, that are tried
-  int refits;      ///< least squares after weights are chosen, again at most so often
-  bool all_shapes;
-  int rounds;  ///< in which every value of the best one's endpoints is moved by a step
+  int partitions;   ///< of the best by rank, that are tried
+  bool all_shapes;  ///< of two partitions, those of few weights too
+  int finer;        ///< layouts of endpoints that are tried beside the one they fit into
+  int refined;      ///< of the best candidates, whose endpoints are fitted again to the weights
+  int refits;       ///< at most so often
+  int rounds;       ///< in which every value of the best one's endpoints is moved by a step
 };
 
 /// Encodes blocks of 4×4 texels of halves, R G B each, 0 … kLargestHalf, to 16 bytes each.

@@ -9,6 +9,7 @@
 #include "welkin/texture/astc_endpoints.h"
 #include "welkin/texture/block_fit_impl.h"
 #include "welkin/texture/uastc_encoder.h"
+#include "welkin/texture/uastc_to_bc6h.h"
 
 /// Included by one source file per instruction set; everything carries its architecture in its template
 /// arguments, for the reason given in sphere/kernels_impl.h.
@@ -54,19 +55,33 @@ class Encoder : BlockFit<Arch> {
 
   astc::Block best() {
     if (Fit::flat()) return one_colour();
-    Candidate best;
-    one_region(best);
+    count_ = 0;
+    one_region();
     Fit::template rank<true>(tables_.masks);
     for (int p = kPartitions; p < kRankedPartitions; ++p)
       grey_residuals_[p] = residuals_[p] = std::numeric_limits<float>::infinity();
     for (int k = 0; k < search_.partitions; ++k) {
-      two_regions(Fit::take_best(grey_residuals_), true, best);
-      two_regions(Fit::take_best(residuals_), false, best);
+      two_regions(Fit::take_best(grey_residuals_), true);
+      two_regions(Fit::take_best(residuals_), false);
     }
+    Candidate best;
+    for (int k = 0; k < std::min(search_.refined, count_); ++k) {
+      Candidate& least =
+          *std::min_element(candidates_, candidates_ + count_,
+                            [](const Candidate& a, const Candidate& b) { return a.error < b.error; });
+      refine(least, best);
+      least.error = std::numeric_limits<float>::infinity();
+    }
+    set_regions_of(best);
     for (int round = 0; round < search_.rounds; ++round) {
       if (!move(best)) break;
     }
     return packed(best);
+  }
+
+  void set_regions_of(const Candidate& candidate) {
+    const bool one = kShapeTable[static_cast<std::size_t>(candidate.shape)].partitions == 1;
+    set_regions(one ? 0u : tables_.partitions[static_cast<std::size_t>(candidate.partition)].second);
   }
 
   astc::Block one_colour() const {
@@ -112,11 +127,11 @@ class Encoder : BlockFit<Arch> {
   /// The layout whose rounded endpoints raise the error least; `store(layout)` rounds. False when none can
   /// be.
   template <class Store>
-  static bool least_layout(int layouts, const float (*ends)[3], const Sums* sums, const Store& store,
-                           StoredEnds& best) {
+  static bool least_layout(const Layouts& layouts, const float (*ends)[3], const Sums* sums,
+                           const Store& store, StoredEnds& best) {
     float least = std::numeric_limits<float>::infinity();
-    for (int layout = 0; layout < layouts; ++layout) {
-      const StoredEnds stored = store(layout);
+    for (int k = 0; k < layouts.count; ++k) {
+      const StoredEnds stored = store(layouts.layout[k]);
       if (!stored.legal()) continue;
       float error = 0;
       for (int c = 0; c < 3; ++c) {
@@ -131,6 +146,18 @@ class Encoder : BlockFit<Arch> {
     return least < std::numeric_limits<float>::infinity();
   }
 
+  /// `fits()`, again with lower ends as long as what they are rounded to is above the limit.
+  template <class Fits>
+  static bool below_limit(float (*ends)[3], const Fits& fits) {
+    for (const int limit : {kLargestEnd, kLargestEnd - 32, kLargestEnd - 128}) {
+      for (int e = 0; e < 2; ++e) {
+        for (int c = 0; c < 3; ++c) ends[e][c] = std::min(ends[e][c], static_cast<float>(limit));
+      }
+      if (fits()) return true;
+    }
+    return false;
+  }
+
   bool fit_direct(int r, const float* share, const StoredValues& range, StoredEnds& best) const {
     Sums sums[3];
     float ends[2][3];
@@ -143,15 +170,18 @@ class Encoder : BlockFit<Arch> {
       } else {
         ends[0][c] = ends[1][c] = (ax + bx) / std::max(aa + 2 * ab + bb, 1e-30f);
       }
-      for (auto& end : ends) end[c] = std::clamp(end[c] * (1.0f / 16), 0.0f, static_cast<float>(kLargestEnd));
+      for (auto& end : ends) end[c] = std::max(end[c] * (1.0f / 16), 0.0f);
     }
     const auto largest = [&](int e) { return std::max({ends[e][0], ends[e][1], ends[e][2]}); };
     if (largest(0) > largest(1)) {
       std::swap(ends[0], ends[1]);
       for (Sums& each : sums) std::swap(each.aa, each.bb);
     }
-    return least_layout(
-        kDirectLayouts, ends, sums, [&](int layout) { return store_direct(ends, layout, range); }, best);
+    return below_limit(ends, [&] {
+      return least_layout(
+          direct_layouts(ends, search_.finer), ends, sums,
+          [&](int layout) { return store_direct(ends, layout, range); }, best);
+    });
   }
 
   bool fit_scale(int r, const float* share, const StoredValues& range, StoredEnds& best) const {
@@ -169,13 +199,14 @@ class Encoder : BlockFit<Arch> {
     const float scale = variance > 0 ? std::max(-covariance / variance, 0.0f) : 0.0f;
     float ends[2][3];
     for (int c = 0; c < 3; ++c) {
-      ends[1][c] =
-          std::clamp((mean[c] + scale * mean_u[c]) * (1.0f / 16), 0.0f, static_cast<float>(kLargestEnd));
+      ends[1][c] = std::max((mean[c] + scale * mean_u[c]) * (1.0f / 16), 0.0f);
       ends[0][c] = std::max(ends[1][c] - scale * (1.0f / 16), 0.0f);
     }
-    return least_layout(
-        kScaleLayouts, ends, sums,
-        [&](int layout) { return store_scale(ends[1], scale * (1.0f / 16), layout, range); }, best);
+    return below_limit(ends, [&] {
+      return least_layout(
+          scale_layouts(ends[1], scale * (1.0f / 16), search_.finer), ends, sums,
+          [&](int layout) { return store_scale(ends[1], scale * (1.0f / 16), layout, range); }, best);
+    });
   }
 
   // ------------------------------------------------------------------------------------------------ indices
@@ -188,13 +219,31 @@ class Encoder : BlockFit<Arch> {
   template <int kRegions>
   void choose(Candidate& candidate) const {
     const Weights& weights = weights_of(candidate.shape);
-    alignas(64) float logs[kRegions][3][16];
+    // Of each region and channel, as ASTC and as BC6H.
+    alignas(64) float logs[kRegions][6][16];
     for (int r = 0; r < kRegions; ++r) {
       for (int c = 0; c < 3; ++c) {
         const int a = candidate.ends[r].ends[0][c] << 4, b = candidate.ends[r].ends[1][c] << 4;
         for (int k = 0; k < weights.count; ++k) {
           const int w = weights.weight[k], value = (a * (64 - w) + b * w + 32) >> 6;
           logs[r][c][k] = scale_.log[astc::half_of_logarithm(value)];
+        }
+      }
+    }
+    const int first =
+        kRegions == 2 && tables_.partitions[static_cast<std::size_t>(candidate.partition)].swapped ? 1 : 0;
+    float nearer = 0;
+    for (int c = 0; c < 3; ++c) {
+      const float(&ends)[16] = logs[first % kRegions][c];
+      const float a = log_[c][0] - ends[0], b = log_[c][0] - ends[weights.count - 1];
+      nearer += a * a - b * b;
+    }
+    const Bc6hEnds as = as_bc6h(candidate.ends, kRegions, first, nearer > 0);
+    for (int r = 0; r < kRegions; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < weights.count; ++k) {
+          logs[r][3 + c][k] = scale_.log[static_cast<std::size_t>(
+              bc6h::interpolated(as.wide[r][0][c], as.wide[r][1][c], weights.bc6h[k]))];
         }
       }
     }
@@ -214,9 +263,12 @@ class Encoder : BlockFit<Arch> {
                  z = Pack::load_unaligned(&log_[2][p * kLanes]);
       Pack least(std::numeric_limits<float>::max()), which(0.0f);
       for (int k = 0; k < weights.count; ++k) {
-        const Pack dx = entry(in_second, 0, k) - x, dy = entry(in_second, 1, k) - y,
-                   dz = entry(in_second, 2, k) - z;
-        const Pack error = xsimd::fma(dx, dx, xsimd::fma(dy, dy, dz * dz));
+        Pack error(0.0f);
+        for (int c = 0; c < 6; c += 3) {
+          const Pack dx = entry(in_second, c, k) - x, dy = entry(in_second, c + 1, k) - y,
+                     dz = entry(in_second, c + 2, k) - z;
+          error = xsimd::fma(dx, dx, xsimd::fma(dy, dy, xsimd::fma(dz, dz, error)));
+        }
         const auto less = error < least;
         least = xsimd::select(less, error, least);
         which = xsimd::select(less, Pack(static_cast<float>(k)), which);
@@ -231,34 +283,44 @@ class Encoder : BlockFit<Arch> {
   // ------------------------------------------------------------------------------------------------
   // candidates
 
-  /// From texels' shares of the second endpoints to the best that this shape makes of them.
-  void refine(int shape, int partition, const float* from, Candidate& best) const {
-    const Shape& what = kShapeTable[static_cast<std::size_t>(shape)];
+  /// Fits endpoints to the texels' shares of the second one, and chooses indices; false when none can be
+  /// stored.
+  bool fitted(const float* share, Candidate& candidate) const {
+    const Shape& what = kShapeTable[static_cast<std::size_t>(candidate.shape)];
     const StoredValues& range = StoredValues::of(what.endpoint_range);
-    const Weights& weights = weights_of(shape);
-    alignas(64) float share[kTexels];
-    std::copy_n(from, kTexels, share);
-    Candidate candidate;
-    for (int round = 0; round <= search_.refits; ++round) {
-      Candidate next;
-      next.shape = shape;
-      next.partition = partition;
-      bool possible = true;
-      for (int r = 0; r < what.partitions; ++r) {
-        possible = possible && (what.mode == 7 ? fit_scale(r, share, range, next.ends[r])
-                                               : fit_direct(r, share, range, next.ends[r]));
-      }
-      if (!possible) break;
-      choose_indices(next);
-      if (!(next.error < candidate.error)) break;
-      candidate = next;
+    for (int r = 0; r < what.partitions; ++r) {
+      const bool possible = what.mode == 7 ? fit_scale(r, share, range, candidate.ends[r])
+                                           : fit_direct(r, share, range, candidate.ends[r]);
+      if (!possible) return false;
+    }
+    choose_indices(candidate);
+    return true;
+  }
+
+  /// A first candidate of this shape.
+  void start(int shape, int partition, const float* share) {
+    Candidate& candidate = candidates_[count_];
+    candidate = {};
+    candidate.shape = shape;
+    candidate.partition = partition;
+    if (fitted(share, candidate)) ++count_;
+  }
+
+  void refine(Candidate candidate, Candidate& best) {
+    set_regions_of(candidate);
+    const Weights& weights = weights_of(candidate.shape);
+    for (int round = 0; round < search_.refits; ++round) {
+      Candidate next = candidate;
+      alignas(64) float share[kTexels];
       for (int i = 0; i < kTexels; ++i)
-        share[i] = static_cast<float>(weights.weight[next.indices[i]]) * (1.0f / 64);
+        share[i] = static_cast<float>(weights.weight[candidate.indices[i]]) * (1.0f / 64);
+      if (!fitted(share, next) || !(next.error < candidate.error)) break;
+      candidate = next;
     }
     if (candidate.error < best.error) best = candidate;
   }
 
-  void one_region(Candidate& best) {
+  void one_region() {
     Fit::centre();
     set_regions(0);
     Pack axis[3];
@@ -267,14 +329,14 @@ class Encoder : BlockFit<Arch> {
     for (int c = 0; c < 3; ++c) axes[0][c] = axes[1][c] = axis[c].get(0);
     alignas(64) float share[kTexels];
     Fit::project(0, axes, nullptr, share);
-    refine(kOneDirect16, 0, share, best);
-    refine(kOneDirect12, 0, share, best);
+    start(kOneDirect16, 0, share);
+    start(kOneDirect12, 0, share);
     constexpr float kGrey[2][3] = {{1, 1, 1}, {1, 1, 1}};
     Fit::project(0, kGrey, nullptr, share);
-    refine(kOneScale16, 0, share, best);
+    start(kOneScale16, 0, share);
   }
 
-  void two_regions(int partition, bool grey, Candidate& best) {
+  void two_regions(int partition, bool grey) {
     const unsigned second = tables_.partitions[static_cast<std::size_t>(partition)].second;
     set_regions(second);
     float axes[2][3];
@@ -284,23 +346,21 @@ class Encoder : BlockFit<Arch> {
     alignas(64) float share[kTexels];
     Fit::project(second, axes, nullptr, share);
     if (!grey) {
-      refine(kTwoDirect4, partition, share, best);
-      if (search_.all_shapes) refine(kTwoDirect3, partition, share, best);
+      start(kTwoDirect4, partition, share);
+      if (search_.all_shapes) start(kTwoDirect3, partition, share);
       return;
     }
-    refine(kTwoScale8, partition, share, best);
-    refine(kTwoScale5, partition, share, best);
+    start(kTwoScale8, partition, share);
+    start(kTwoScale5, partition, share);
     if (!search_.all_shapes) return;
-    for (const int shape : {kTwoScale6, kTwoScale4, kTwoScale3}) refine(shape, partition, share, best);
+    for (const int shape : {kTwoScale6, kTwoScale4, kTwoScale3}) start(shape, partition, share);
   }
 
   /// Moves every value of the endpoints by a step of its range, with the indices chosen again, where that
   /// lessens the error; whether it did.
-  bool move(Candidate& best) {
+  bool move(Candidate& best) const {
     const Shape& shape = kShapeTable[static_cast<std::size_t>(best.shape)];
     const StoredValues& range = StoredValues::of(shape.endpoint_range);
-    set_regions(shape.partitions == 1 ? 0u
-                                      : tables_.partitions[static_cast<std::size_t>(best.partition)].second);
     const float before = best.error;
     for (int r = 0; r < shape.partitions; ++r) {
       for (int i = 0; i < shape.values(); ++i) {
@@ -322,8 +382,12 @@ class Encoder : BlockFit<Arch> {
     return best.error < before;
   }
 
+  static constexpr int kMaxTried = 4;  // partitions
+
   const Search search_;
   const Tables& tables_;
+  Candidate candidates_[3 + 7 * kMaxTried];
+  int count_ = 0;
 };
 
 }  // namespace welkin::texture::uastc

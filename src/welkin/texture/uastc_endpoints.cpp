@@ -51,6 +51,10 @@ std::uint8_t stored(int& field, unsigned high, int low_bits, const StoredValues&
   return byte;
 }
 
+int largest_of(const float* colour) {
+  return colour[0] >= colour[1] && colour[0] >= colour[2] ? 0 : colour[1] >= colour[2] ? 1 : 2;
+}
+
 StoredValues made_of(int range) {
   StoredValues made{};
   const auto& values = astc::endpoint_values(range);
@@ -92,6 +96,50 @@ bool StoredEnds::legal() const {
   return std::all_of(&ends[0][0], &ends[0][0] + 6, [](int each) { return each <= kLargestEnd; });
 }
 
+Layouts direct_layouts(const float (*ends)[3], int finer) {
+  const float* high = ends[1];
+  const int largest = largest_of(high);
+  const float c = high[largest] - ends[0][largest];
+  float b = 0, d = 0;
+  for (int k = 0; k < 3; ++k) {
+    b = std::max(b, high[largest] - high[k]);
+    d = std::max(d, std::abs(high[k] - c - ends[0][k]));
+  }
+  Layouts layouts;
+  int layout = 7;
+  for (; layout >= 0; --layout) {
+    const astc::DirectMode& bits = astc::kDirectModes[layout];
+    const auto unit = static_cast<float>(1 << bits.shift);
+    const auto holds = [&](float difference, int width) {
+      return difference < (static_cast<float>(1 << width) - 0.5f) * unit;
+    };
+    if (holds(b, bits.b) && holds(c, bits.c) && holds(d, bits.d - 1)) break;
+  }
+  if (layout >= 0) layouts.add(layout);
+  if (layout < 0) layouts.add(8);
+  for (int k = 1; k <= finer && layout + k <= 7; ++k) layouts.add(layout + k);
+  return layouts;
+}
+
+Layouts scale_layouts(const float* end, float scale, int finer) {
+  const int largest = largest_of(end);
+  float other = 0;
+  for (int k = 0; k < 3; ++k) other = std::max(other, end[largest] - end[k]);
+  int layout = 0;
+  for (; layout < 5; ++layout) {
+    const astc::ScaleMode& bits = astc::kScaleModes[layout];
+    const auto unit = static_cast<float>(1 << bits.shift);
+    const auto holds = [&](float difference, int width) {
+      return difference < (static_cast<float>(1 << width) - 0.5f) * unit;
+    };
+    if (holds(other, bits.other) && holds(scale, bits.scale)) break;
+  }
+  Layouts layouts;
+  layouts.add(layout);
+  for (int k = 1; k <= finer && layout - k >= 0; ++k) layouts.add(layout - k);
+  return layouts;
+}
+
 StoredEnds store_direct(const float (*ends)[3], int layout, const StoredValues& range) {
   StoredEnds out;
   if (layout == 8) {
@@ -107,7 +155,7 @@ StoredEnds store_direct(const float (*ends)[3], int layout, const StoredValues& 
   }
   const astc::DirectMode& bits = astc::kDirectModes[layout];
   const float* high = ends[1];
-  const int largest = high[0] >= high[1] && high[0] >= high[2] ? 0 : high[1] >= high[2] ? 1 : 2;
+  const int largest = largest_of(high);
   const int others[2] = {largest == 1 ? 0 : 1, largest == 2 ? 0 : 2};
   const float unit = static_cast<float>(1 << bits.shift), per_unit = 1 / unit;
   int field[6];
@@ -143,7 +191,7 @@ StoredEnds store_scale(const float* end, float scale, int layout, const StoredVa
   StoredEnds out;
   const astc::ScaleMode& bits = astc::kScaleModes[layout];
   const bool absolute = layout == 5;
-  const int largest = absolute || (end[0] >= end[1] && end[0] >= end[2]) ? 0 : end[1] >= end[2] ? 1 : 2;
+  const int largest = absolute ? 0 : largest_of(end);
   const int others[2] = {largest == 1 ? 0 : 1, largest == 2 ? 0 : 2};
   const unsigned word = layout < 4    ? static_cast<unsigned>(largest << 2 | layout)
                         : layout == 4 ? 12u | static_cast<unsigned>(largest)

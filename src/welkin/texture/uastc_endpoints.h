@@ -34,6 +34,17 @@ inline constexpr int kDirectLayouts = 9;
 /// Rounds ends of 12 bits. The largest channel of the second must not be below that of the first.
 StoredEnds store_direct(const float (*ends)[3], int layout, const StoredValues& range);
 
+/// Layouts that are worth trying: the finest that the endpoints fit into, and of those that are a step finer
+/// `finer` ones, into which they fit but for a clamped difference.
+struct Layouts {
+  int count = 0;
+  int layout[5] = {};
+
+  void add(int which) { layout[count++] = which; }
+};
+Layouts direct_layouts(const float (*ends)[3], int finer);
+Layouts scale_layouts(const float* end, float scale, int finer);
+
 /// Of mode 7: the second endpoint, and how far the first is below it in all channels.
 inline constexpr int kScaleLayouts = 6;
 StoredEnds store_scale(const float* end, float scale, int layout, const StoredValues& range);

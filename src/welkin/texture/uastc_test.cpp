@@ -14,6 +14,7 @@
 #include "welkin/texture/astc_hdr.h"
 #include "welkin/texture/bc6h_block.h"
 #include "welkin/texture/uastc_encoder.h"
+#include "welkin/texture/uastc_to_bc6h.h"
 
 namespace welkin {
 namespace {
@@ -163,7 +164,7 @@ TEST(UastcHdr, KeepsFlatBlocks) {
     std::vector<std::uint16_t> halves(3 * kTexels);
     for (std::size_t i = 0; i < halves.size(); ++i) halves[i] = colour[i % 3];
     std::byte bytes[kBlockBytes];
-    encoder_baseline()(halves.data(), 1, {1, 1, false, 0}, bytes);
+    encoder_baseline()(halves.data(), 1, {1, false, 0, 1, 1, 0}, bytes);
     std::uint16_t decoded[4 * kTexels];
     texture::astc::decode(bytes, decoded);
     for (int i = 0; i < kTexels; ++i) {
@@ -204,6 +205,30 @@ TEST(UastcHdr, KeepsDarkTexelsBesideASun) {
   for (std::size_t i = 0; i < texels.size(); ++i) EXPECT_NEAR(std::log(decoded[i] / texels[i]), 0, 0.7) << i;
 }
 
+/// Up to the largest half, beside nothing too, though no block but one of one colour holds more than 65344.
+TEST(UastcHdr, KeepsTheBrightest) {
+  std::mt19937 random(6);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<std::uint16_t> halves(3 * kTexels);
+    for (auto& half : halves)
+      half = static_cast<std::uint16_t>(
+          random() % 3 == 0 && round % 2 == 0 ? 0u : 0x7bff - random() % (1u << round % 8));
+    for (const Search& search : {Search{1, false, 0, 1, 1, 0}, Search{2, true, 1, 3, 2, 1}}) {
+      std::byte bytes[kBlockBytes];
+      std::uint16_t decoded[4 * kTexels];
+      encoder_baseline()(halves.data(), 1, search, bytes);
+      texture::astc::decode(bytes, decoded);
+      for (int i = 0; i < 3 * kTexels; ++i) {
+        const std::uint16_t half = decoded[i / 3 * 4 + i % 3];
+        if (round % 2 == 1) {
+          ASSERT_NEAR(half, halves[static_cast<std::size_t>(i)], 150) << round;
+        }
+      }
+      EXPECT_GT(*std::max_element(decoded, decoded + 4 * kTexels), 0x7400) << round;
+    }
+  }
+}
+
 /// What is written keeps to UASTC HDR: its shapes, one mode and endpoints below the limit, for any halves.
 TEST(UastcHdr, WritesOnlyWhatBecomesBc6h) {
   std::mt19937 random(4);
@@ -218,7 +243,7 @@ TEST(UastcHdr, WritesOnlyWhatBecomesBc6h) {
       for (std::size_t i = 0; i < halves.size(); i += 3) halves[i + 1] = halves[i + 2] = halves[i];
     }
     std::byte bytes[kBlockBytes];
-    encoder_baseline()(halves.data(), 1, {2, 1, true, 1}, bytes);
+    encoder_baseline()(halves.data(), 1, {2, true, 1, 3, 1, 1}, bytes);
     texture::astc::Block block;
     ASSERT_TRUE(texture::astc::unpack(bytes, block));
     if (block.one_colour) continue;
@@ -246,6 +271,36 @@ TEST(UastcHdr, WritesOnlyWhatBecomesBc6h) {
     shapes.insert({block.partitions, block.modes[0]});
   }
   EXPECT_EQ(shapes.size(), 4u);
+}
+
+/// As BC6H a block is about what it is as ASTC: what the search weighs as much.
+TEST(UastcHdr, BecomesBc6hOfTheSameTexels) {
+  const std::vector<float> texels = smooth_picture(64, 48);
+  std::vector<std::byte> blocks(astc_bytes(64, 48));
+  encode_uastc_hdr({texels.data(), 64, 48, 3, 192}, TextureQuality::normal, blocks);
+  const auto log = [](std::uint16_t half) { return static_cast<double>(ErrorScale::get().log[half]); };
+  double sum = 0;
+  for (std::size_t at = 0; at < blocks.size(); at += kBlockBytes) {
+    std::uint16_t as_astc[4 * kTexels], as_bc6h[3 * kTexels];
+    texture::astc::decode(&blocks[at], as_astc);
+    ASSERT_TRUE(decode_as_bc6h(&blocks[at], as_bc6h));
+    for (int i = 0; i < 3 * kTexels; ++i)
+      sum += std::pow(log(as_astc[i / 3 * 4 + i % 3]) - log(as_bc6h[i]), 2);
+  }
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(3 * blocks.size())), 5e-3);
+}
+
+/// BC6H isn't made of other ASTC: a grid of 4×2 weights.
+TEST(UastcHdr, OtherAstcDoesNotBecomeBc6h) {
+  texture::astc::Block block;
+  block.grid_height = 2;
+  block.weight_range = texture::astc::range_of(16);
+  block.modes[0] = 11;
+  block.endpoint_range = texture::astc::endpoint_range_of(block);
+  std::byte bytes[kBlockBytes];
+  texture::astc::pack(block, bytes);
+  std::uint16_t halves[3 * kTexels];
+  EXPECT_FALSE(decode_as_bc6h(bytes, halves));
 }
 
 TEST(UastcHdr, ClampsWhatItCannotHoldAndCountsIt) {
@@ -298,7 +353,8 @@ TEST(UastcHdr, InstructionSetsAgree) {
   double errors[2] = {};
   for (int set = 0; set < 2; ++set) {
     std::vector<std::byte> blocks(16 * 200);
-    (set == 0 ? encoder_baseline() : encoder_avx2())(halves.data(), 200, {2, 2, true, 1}, blocks.data());
+    (set == 0 ? encoder_baseline() : encoder_avx2())(halves.data(), 200, {2, true, 1, 3, 2, 1},
+                                                     blocks.data());
     for (std::size_t b = 0; b < 200; ++b) {
       std::uint16_t decoded[64];
       texture::astc::decode(&blocks[16 * b], decoded);
