@@ -65,7 +65,7 @@ class Clock {
 
 /// As graphics cards name them.
 std::vector<std::string> texel_formats() {
-  return {"rgba32f", "rgba16f", "rgb9e5", "r11g11b10", "bc6h"};
+  return {"rgba32f", "rgba16f", "rgb9e5", "r11g11b10", "bc6h", "uastc-hdr"};
 }
 
 /// `0.001`, `0.1%` or `0.1 %`.
@@ -280,10 +280,10 @@ void add_bake(CLI::App& app) {
   std::vector<std::string> formats = texel_formats();
   for (const std::string& extension : io::writable_extensions()) formats.push_back(extension);
   command
-      ->add_option(
-          "--format", bake->format,
-          "Stored texels: rgba32f, rgba16f, rgb9e5, r11g11b10, bc6h; or of standard output, where OUT is -, "
-          "the format: ktx2, exr…, and --type says what is stored")
+      ->add_option("--format", bake->format,
+                   "Stored texels: rgba32f, rgba16f, rgb9e5, r11g11b10, bc6h, uastc-hdr; or of standard "
+                   "output, where OUT is -, "
+                   "the format: ktx2, exr…, and --type says what is stored")
       ->check(CLI::IsMember(formats))
       ->option_text("TEXT");
   command

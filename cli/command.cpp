@@ -241,15 +241,15 @@ void WriteFlags::add(CLI::App& command) {
                      "Order and quarter turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
   command.add_option(
       "--type", type,
-      "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10, bc6h in textures. "
+      "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10, bc6h, uastc-hdr in textures. "
       "Default: the format's best");
   command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")
       ->capture_default_str();
   command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");
   command
-      .add_option(
-          "--quality", quality,
-          "Of lossy formats 1 to 100; of bc6h how long the best blocks are searched: fast, normal, best")
+      .add_option("--quality", quality,
+                  "Of lossy formats 1 to 100; of bc6h and uastc-hdr how long the best blocks are searched: "
+                  "fast, normal, best")
       ->option_text("TEXT [95, normal]");
   command
       .add_option("--border", border,

@@ -32,6 +32,8 @@ double largest_of(io::PixelType type, const io::Capabilities& format) {
       return format.format == "exr" ? kLargestHalf : 1;
     case io::PixelType::half:
     case io::PixelType::bc6h:
+    case io::PixelType::uastc_hdr:
+    case io::PixelType::astc_hdr:
     case io::PixelType::float32:
       return kLargestHalf;
     case io::PixelType::rgb9e5:

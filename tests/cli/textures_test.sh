@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Textures: DDS, KTX 1, and BC6H in all that hold it. Chains and cubes come back; what can't be said or stored is refused.
+# Textures: DDS, KTX 1, BC6H in all that hold it, and UASTC HDR. Chains and cubes come back; what can't be said or stored is refused.
 #
 # textures_test.sh WELKIN
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
@@ -59,6 +59,19 @@ matches '^level 5 as it is stored: rel. RMSE ' bake room.exr told.dds --size 32 
 must bake room.exr told.ktx2 --size 32 --format bc6h --json
 below 'the error told' "$(jq '.levels[0].stored.relative_rmse' "$work/out")" "$(error chain.ktx2 told.ktx2 | awk '{ print $1 * 1.2 }')"
 below 'the error found' "$(error chain.ktx2 told.ktx2)" "$(jq '.levels[0].stored.relative_rmse * 1.2' "$work/out")"
+
+# UASTC HDR: packed unless that is declined, in KTX2 alone; blocks don't depend on it, nor much on the search.
+for quality in fast normal best; do must bake room.exr uastc-$quality.ktx2 --size 32 --format uastc-hdr --quality $quality; done
+matches 'R G B of uastc-hdr' info uastc-normal.ktx2 --header
+matches 'zstd' info uastc-normal.ktx2 --header
+below "uastc fast" "$(error chain.ktx2 uastc-fast.ktx2)" 0.1
+below "uastc best against fast" "$(error chain.ktx2 uastc-best.ktx2)" "$(error chain.ktx2 uastc-fast.ktx2 | awk '{ print $1 * 1.05 }')"
+must bake room.exr uastc-plain.ktx2 --size 32 --format uastc-hdr --compression none
+for level in 0 4; do below "uastc, level $level" "$(error uastc-normal.ktx2 uastc-plain.ktx2 --level $level)" 0; done
+must convert room.exr odd-uastc.ktx2 --type uastc-hdr --size 37x19
+below "uastc of odd sizes" "$(error odd.ktx2 odd-uastc.ktx2)" 0.1
+refuses 1 'DDS holds no uastc-hdr pixels' convert room.exr a.dds --type uastc-hdr
+refuses 1 'KTX2 holds no astc-hdr pixels' convert room.exr a.ktx2 --type astc-hdr
 
 # Values that BC6H can't hold are clipped and counted.
 must synth sun sun.exr --size 256 --intensity 1e7

@@ -10,8 +10,9 @@
 namespace welkin::io {
 namespace {
 
-constexpr PixelType kTypes[] = {PixelType::uint8,   PixelType::uint16, PixelType::uint32,    PixelType::half,
-                                PixelType::float32, PixelType::rgb9e5, PixelType::r11g11b10, PixelType::bc6h};
+constexpr PixelType kTypes[] = {
+    PixelType::uint8,  PixelType::uint16,    PixelType::uint32, PixelType::half,      PixelType::float32,
+    PixelType::rgb9e5, PixelType::r11g11b10, PixelType::bc6h,   PixelType::uastc_hdr, PixelType::astc_hdr};
 
 std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -41,12 +42,17 @@ std::string_view name_of(PixelType type) {
       return "r11g11b10";
     case PixelType::bc6h:
       return "bc6h";
+    case PixelType::uastc_hdr:
+      return "uastc-hdr";
+    case PixelType::astc_hdr:
+      return "astc-hdr";
   }
   return "?";
 }
 
 bool is_packed(PixelType type) {
-  return type == PixelType::rgb9e5 || type == PixelType::r11g11b10 || type == PixelType::bc6h;
+  return type == PixelType::rgb9e5 || type == PixelType::r11g11b10 || type == PixelType::bc6h ||
+         type == PixelType::uastc_hdr;
 }
 
 PixelType pixel_type_from_name(std::string_view name) {

@@ -23,12 +23,16 @@ enum class PixelType {
   rgb9e5,     ///< three of nine bits with a common exponent
   r11g11b10,  ///< three small floats without sign
   bc6h,       ///< compressed blocks of 4×4 texels of three halves, never negative
+  uastc_hdr,  ///< the same of UASTC HDR 4×4, which is ASTC HDR and becomes BC6H quickly
+  astc_hdr,   ///< the same of any ASTC HDR 4×4, with alpha; only read
 };
 
-/// Whether it holds three values that are never negative, and no alpha: `rgb9e5`, `r11g11b10`, `bc6h`.
+/// Whether it holds three values that are never negative, and no alpha: `rgb9e5`, `r11g11b10`, `bc6h`,
+/// `uastc-hdr`.
 WELKIN_API bool is_packed(PixelType type);
 
-/// The name in options: `uint8`, `uint16`, `uint32`, `half`, `float`, `rgb9e5`, `r11g11b10`, `bc6h`.
+/// The name in options: `uint8`, `uint16`, `uint32`, `half`, `float`, `rgb9e5`, `r11g11b10`, `bc6h`,
+/// `uastc-hdr`, `astc-hdr`.
 WELKIN_API std::string_view name_of(PixelType type);
 
 /// The type of that name. Throws Error (bad_request) for another, which suggests the nearest.

@@ -57,6 +57,8 @@ std::size_t size_of(PixelType type) {
     case PixelType::rgb9e5:
     case PixelType::r11g11b10:
     case PixelType::bc6h:
+    case PixelType::uastc_hdr:
+    case PixelType::astc_hdr:
       break;
   }
   assert(false);
@@ -114,6 +116,8 @@ void PixelDecoder::decode(const void* stored, std::span<const int> channels, int
     case PixelType::rgb9e5:
     case PixelType::r11g11b10:
     case PixelType::bc6h:
+    case PixelType::uastc_hdr:
+    case PixelType::astc_hdr:
       assert(false);
   }
 }

@@ -135,6 +135,8 @@ void PixelEncoder::encode_as_they_are(const float* in, int image_channels, int c
       case PixelType::rgb9e5:
       case PixelType::r11g11b10:
       case PixelType::bc6h:
+      case PixelType::uastc_hdr:
+      case PixelType::astc_hdr:
         assert(false);
     }
   }

@@ -94,6 +94,8 @@ StoredType stored_type(const WriteOptions& options) {
     case PixelType::rgb9e5:
     case PixelType::r11g11b10:
     case PixelType::bc6h:
+    case PixelType::uastc_hdr:
+    case PixelType::astc_hdr:
       break;
   }
   throw Error(ErrorKind::unsupported,

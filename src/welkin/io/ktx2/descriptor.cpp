@@ -15,8 +15,8 @@ using namespace texels;
 namespace {
 
 constexpr std::uint32_t kVersion = 2;  // of the block's layout: that of specification 1.3 and 1.4
-constexpr std::uint32_t kModelRgbsda = 1, kModelBc6h = 133, kPrimariesBt709 = 1, kTransferLinear = 1,
-                        kTransferSrgb = 2, kFlagPremultiplied = 1;
+constexpr std::uint32_t kModelRgbsda = 1, kModelBc6h = 133, kModelAstc = 162, kPrimariesBt709 = 1,
+                        kTransferLinear = 1, kTransferSrgb = 2, kFlagPremultiplied = 1;
 constexpr std::size_t kBlockWords = 6, kSampleWords = 4;
 
 /// How a sample's bits are a number.
@@ -53,7 +53,16 @@ std::vector<Sample> block_samples(bool is_signed) {
 }
 
 std::uint32_t model_of(const TexelFormat& format) {
-  return format.coding == Coding::blocks ? kModelBc6h : kModelRgbsda;
+  switch (format.type) {
+    case PixelType::bc6h:
+      return kModelBc6h;
+    case PixelType::uastc_hdr:
+      return kModelUastcHdr;
+    case PixelType::astc_hdr:
+      return kModelAstc;
+    default:
+      return kModelRgbsda;
+  }
 }
 
 /// Sides of the texels that are stored together, less one, a byte each.

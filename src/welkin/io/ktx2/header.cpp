@@ -74,9 +74,9 @@ void parse_format(const Fields& fields, const Source& source, Header& header) {
     fields.refuse("supercompression scheme " + std::to_string(scheme) + " is not supported", at::scheme);
   }
   header.scheme = static_cast<Scheme>(scheme);
-  header.format = find_format(number);
-  if (header.format == nullptr)
-    fields.refuse(refusal_of(number, colour_model(fields, source)), at::vk_format);
+  const std::uint32_t model = colour_model(fields, source);
+  header.format = find_format(number, model);
+  if (header.format == nullptr) fields.refuse(refusal_of(number, model), at::vk_format);
   if (const std::uint32_t size = fields.word(at::type_size); size != header.format->type_size) {
     fields.fail("the type size " + std::to_string(size) + " is not that of " + format_name(number),
                 at::type_size);

@@ -106,6 +106,28 @@ TEST(Ktx2Kinds, DoublesAreNarrowed) {
   expect_values(row(121, values), kRgba, {0.1f, -1e30f, INFINITY, 4});
 }
 
+/// A block of one colour, as ASTC HDR, as UASTC HDR, and as that without a VkFormat. Only the first has
+/// alpha.
+TEST(Ktx2Kinds, AstcHdrIsDecoded) {
+  const auto block = texels_of<std::uint64_t>({~std::uint64_t{3}, 0x3800400038003c00});
+  const auto file = [&](std::uint32_t format, std::uint32_t model) {
+    return row(format, block, [&](OtherFile& other) {
+      other.type_size = 1;
+      other.texel_bytes = 16;
+      other.width = 1;
+      other.model = model;
+      other.block = 0x0303;
+    });
+  };
+  expect_values(file(1000066000, 162), kRgba, {1, 0.5, 2, 0.5});
+  expect_values(file(1000066000, 167), kRgb, {1, 0.5, 2});
+  expect_values(file(0, 167), kRgb, {1, 0.5, 2});
+  EXPECT_EQ(info_of(file(1000066000, 162)).parts[0].type, PixelType::astc_hdr);
+  EXPECT_EQ(info_of(file(0, 167)).parts[0].type, PixelType::uastc_hdr);
+  EXPECT_NE(error_of([&] { open(file(1000066000, 133), "a.ktx2"); }).find("colour model 133"),
+            std::string::npos);
+}
+
 TEST(Ktx2Kinds, ChannelsOfEveryFormatCanBeTakenAlone) {
   const Bytes file = row(58, texels_of<std::uint32_t>({2u << 30 | 1023 << 20 | 5 << 10 | 7}));
   const auto reader = open(file, "a.ktx2");
@@ -129,8 +151,8 @@ TEST(Ktx2Kinds, OthersAreRefusedByNameWithARemedy) {
   expect(message(0, 166), {"Basis Universal (UASTC)", "`ktx transcode --target rgba8"});
   expect(message(0, 163), {"Basis Universal (ETC1S", "`ktx transcode --target rgba8"});
   expect(message(0, 163, 1), {"BasisLZ", "`ktx transcode --target rgba8"});
-  expect(message(0, 167), {"UASTC HDR", "basisu -unpack"});
-  expect(message(1000066000), {"VK_FORMAT_ASTC_4x4_SFLOAT_BLOCK", "ASTC HDR", "decompress it"});
+  expect(message(0, 168), {"UASTC HDR 6×6", "basisu -unpack"});
+  expect(message(1000066004), {"VK_FORMAT_ASTC_6x6_SFLOAT_BLOCK", "ASTC HDR", "decompress it"});
   expect(message(1000066013), {"VK_FORMAT_ASTC_12x12_SFLOAT_BLOCK"});
   expect(message(157), {"VK_FORMAT_ASTC_4x4_UNORM_BLOCK", "(ASTC)"});
   expect(message(131), {"VK_FORMAT_BC1_RGB_UNORM_BLOCK", "(BC, S3TC)"});

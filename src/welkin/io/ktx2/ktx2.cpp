@@ -190,7 +190,7 @@ Format ktx2_format() {
            .title = "KTX2",
            .extensions = {"ktx2"},
            .types = {PixelType::float32, PixelType::half, PixelType::rgb9e5, PixelType::r11g11b10,
-                     PixelType::bc6h},
+                     PixelType::bc6h, PixelType::uastc_hdr},
            .compressions = {"none", "zstd"},
            .channels = Channels::rg_or_rgba,
            .pictures = true,

@@ -81,6 +81,7 @@ struct OtherFile {
   std::size_t texel_bytes = 1;
   std::uint32_t width = 1, height = 1, depth = 0, layers = 0, faces = 1, levels = 1, scheme = 0;
   std::uint32_t transfer = 1, primaries = 1, model = 1;
+  std::uint32_t block = 0;  ///< its sides less one
   std::uint32_t flags = 1;  ///< alpha is multiplied in, so texels are read as they are
   Bytes keys = {};
   std::uint64_t unpacked = 0;  ///< 0: as many bytes as are stored
@@ -103,7 +104,7 @@ inline Bytes file_of(const OtherFile& file, const Bytes& texels) {
   append(bytes, file.unpacked == 0 ? std::uint64_t{texels.size()} : file.unpacked);
   for (const std::uint32_t field : {kDescriptorBytes, 0u, 2u | 24u << 16,
                                     file.model | file.primaries << 8 | file.transfer << 16 | file.flags << 24,
-                                    0u, static_cast<std::uint32_t>(file.texel_bytes), 0u})
+                                    file.block, static_cast<std::uint32_t>(file.texel_bytes), 0u})
     append(bytes, field);
   bytes.insert(bytes.end(), file.keys.begin(), file.keys.end());
   bytes.insert(bytes.end(), texels.begin(), texels.end());

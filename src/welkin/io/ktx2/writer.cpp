@@ -35,15 +35,17 @@ class Writer {
     header_.layers = shape.layers;
     header_.faces = shape.faces;
     header_.levels.resize(static_cast<std::size_t>(shape.levels));
-    static constexpr std::array types{PixelType::float32, PixelType::half, PixelType::rgb9e5,
-                                      PixelType::r11g11b10, PixelType::bc6h};
+    static constexpr std::array types{PixelType::float32,   PixelType::half, PixelType::rgb9e5,
+                                      PixelType::r11g11b10, PixelType::bc6h, PixelType::uastc_hdr};
     static const std::array<std::string, 2> known{"none", "zstd"};
     const PixelType type = pixel_type(options, types, "KTX2");
     const bool two =
         !format_for(type).packed() &&
         std::all_of(parts.begin(), parts.end(), [](const WritePart& part) { return is_red_green(part); });
     header_.format = &format_for(type, two);
-    header_.scheme = compression(options, known, "KTX2") == "zstd" ? Scheme::zstd : Scheme::none;
+    // Loaders of UASTC HDR unpack it; some take it no other way.
+    const bool packs = options.compression.empty() && type == PixelType::uastc_hdr;
+    header_.scheme = packs || compression(options, known, "KTX2") == "zstd" ? Scheme::zstd : Scheme::none;
     const Colour colour = colour_for(type, options.colour);
     const bool packed = header_.format->packed();
     const std::string holder = packed ? "KTX2 of " + std::string(io::name_of(type)) : "KTX2";

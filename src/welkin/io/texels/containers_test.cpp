@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "welkin/io/ktx2/ktx2_test_files.h"
+#include "welkin/texture/astc_hdr.h"
 #include "welkin/texture/bc6h.h"
 
 namespace welkin::io::test {
@@ -71,37 +72,68 @@ TEST(TextureContainers, KeepEveryPictureOfEveryKind) {
   }
 }
 
+/// What encoding and decoding a picture as blocks makes of it.
+Image coded(ImageView<const float> picture, PixelType type) {
+  std::vector<std::byte> blocks(bc6h_bytes(picture.width, picture.height));
+  Image image(picture.width, picture.height, 3);
+  if (type == PixelType::bc6h) {
+    encode_bc6h(picture, TextureQuality::fast, blocks);
+    decode_bc6h(blocks, false, image.view());
+  } else {
+    encode_uastc_hdr(picture, TextureQuality::fast, blocks);
+    decode_astc_hdr(blocks, image.view());
+  }
+  return image;
+}
+
 /// Blocks are those of texture/, whatever the picture's size, and decode as those do.
-TEST(Ktx2, StoresBlocksOfBc6h) {
-  for (const Kind& kind : kKinds) {
-    for (const std::string compression : {"none", "zstd"}) {
-      for (const int channels : {1, 3}) {
-        SCOPED_TRACE(kind.name + " " + compression);
-        const Texture texture(kind.width, kind.height, kind.levels, kind.layers, kind.faces, channels);
-        WriteOptions options;
-        options.type = PixelType::bc6h;
-        options.texture_quality = TextureQuality::fast;
-        options.compression = compression;
-        const Bytes bytes = texture.encoded(options);
-        const auto reader = open(bytes, "a.ktx2");
-        ASSERT_EQ(reader->info().parts.size(), texture.parts().size());
-        for (std::size_t i = 0; i < texture.parts().size(); ++i) {
-          const PartInfo& part = reader->info().parts[i];
-          EXPECT_EQ(part.type, PixelType::bc6h);
-          EXPECT_EQ(part.channels, names_of(3));
-          const ImageView<const float> written = texture.parts()[i].image;
-          std::vector<std::byte> blocks(bc6h_bytes(part.width, part.height));
-          encode_bc6h(written, TextureQuality::fast, blocks);
-          Image expected(part.width, part.height, 3);
-          decode_bc6h(blocks, false, expected.view());
-          const Image image = read_part(*reader, i);
-          for (int y = 0; y < part.height; ++y) {
-            for (int x = 0; x < 3 * part.width; ++x) ASSERT_EQ(image.at(0, y)[x], expected.at(0, y)[x]);
+TEST(Ktx2, StoresBlocks) {
+  for (const PixelType type : {PixelType::bc6h, PixelType::uastc_hdr}) {
+    for (const Kind& kind : kKinds) {
+      for (const std::string compression : {"none", "zstd"}) {
+        for (const int channels : {1, 3}) {
+          SCOPED_TRACE(kind.name + " " + compression);
+          const Texture texture(kind.width, kind.height, kind.levels, kind.layers, kind.faces, channels);
+          WriteOptions options;
+          options.type = type;
+          options.texture_quality = TextureQuality::fast;
+          options.compression = compression;
+          const Bytes bytes = texture.encoded(options);
+          const auto reader = open(bytes, "a.ktx2");
+          ASSERT_EQ(reader->info().parts.size(), texture.parts().size());
+          for (std::size_t i = 0; i < texture.parts().size(); ++i) {
+            const PartInfo& part = reader->info().parts[i];
+            EXPECT_EQ(part.type, type);
+            EXPECT_EQ(part.channels, names_of(3));
+            const Image expected = coded(texture.parts()[i].image, type);
+            const Image image = read_part(*reader, i);
+            for (int y = 0; y < part.height; ++y) {
+              for (int x = 0; x < 3 * part.width; ++x) ASSERT_EQ(image.at(0, y)[x], expected.at(0, y)[x]);
+            }
           }
         }
       }
     }
   }
+}
+
+/// As basis_universal writes it and three.js asks for it: the VkFormat of ASTC, colour model 167, Zstandard.
+TEST(Ktx2, DescribesUastcHdr) {
+  const Texture texture(8, 8, 1, 1, 6, 3);
+  WriteOptions options;
+  options.type = PixelType::uastc_hdr;
+  const Bytes bytes = texture.encoded(options);
+  const std::size_t descriptor = word(bytes, 48);
+  EXPECT_EQ(word(bytes, 12), 1000066000u);
+  EXPECT_EQ(word(bytes, 16), 1u);
+  EXPECT_EQ(word(bytes, 44), 2u);
+  EXPECT_EQ(word(bytes, descriptor), 44u);
+  EXPECT_EQ(word(bytes, descriptor + 12), 167u | 1u << 8 | 1u << 16);
+  EXPECT_EQ(word(bytes, descriptor + 16), 0x0303u);
+  EXPECT_EQ(word(bytes, descriptor + 20), 16u);
+  EXPECT_EQ(word(bytes, descriptor + 28), 127u << 16 | 0x80u << 24);
+  EXPECT_EQ(word(bytes, descriptor + 36), 0u);
+  EXPECT_EQ(word(bytes, descriptor + 40), 0x3f800000u);
 }
 
 /// Khronos Data Format Specification 1.3, table of the BC6H descriptors: one sample of 128 bits, model 133,

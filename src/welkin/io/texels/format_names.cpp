@@ -124,7 +124,7 @@ constexpr Family kFamilies[] = {
     {"ETC2_", "compressed blocks (ETC2)", kDecompress},
     {"EAC_", "compressed blocks (EAC)", kDecompress},
     {"PVRTC", "compressed blocks (PVRTC)", kDecompress},
-    {"SFLOAT_BLOCK", "blocks of HDR colours (ASTC HDR)", kDecompress},
+    {"SFLOAT_BLOCK", "blocks of HDR colours (ASTC HDR of other than 4×4 texels)", kDecompress},
     {"ASTC_", "compressed blocks (ASTC)", kDecompress},
     {"PLANE_", "a video's planes of Y′CbCr", kSfloat},
     {"_422_", "a video's Y′CbCr", kSfloat},
@@ -142,15 +142,16 @@ constexpr std::string_view kTranscode =
     "make it readable by `ktx transcode --target rgba8 IN OUT` of Khronos's KTX-Software";
 
 std::string refusal_of_basis(std::uint32_t colour_model) {
-  constexpr std::uint32_t kEtc1s = 163, kUastc = 166, kUastcHdr4x4 = 167, kUastcHdr6x6 = 168;
+  constexpr std::uint32_t kEtc1s = 163, kUastc = 166, kUastcHdr6x6 = 168;
   switch (colour_model) {
     case kEtc1s:
       return refusal_of_basis_lz();
     case kUastc:
       return "texels of Basis Universal (UASTC) are not read; " + std::string(kTranscode);
-    case kUastcHdr4x4:
     case kUastcHdr6x6:
-      return "texels of Basis Universal (UASTC HDR) are not read; unpack it to EXR by `basisu -unpack`";
+      return "texels of Basis Universal (UASTC HDR 6×6) are not read; unpack it to EXR by `basisu -unpack`, "
+             "or "
+             "make it UASTC HDR 4×4, which is read";
     default:
       return "texels of VK_FORMAT_UNDEFINED, which only their descriptor describes, are not read; " +
              std::string(kSfloat);

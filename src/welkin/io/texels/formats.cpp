@@ -10,6 +10,10 @@ namespace {
 constexpr auto kByte = PixelType::uint8, kWord = PixelType::uint16, kHalf = PixelType::half,
                kFloat = PixelType::float32;
 
+constexpr std::uint32_t kAstcHdr = 1000066000;  // of 4×4 texels
+
+constexpr TexelFormat kUastcHdr = {kAstcHdr, PixelType::uastc_hdr, "RGB", false, Coding::blocks, 1};
+
 constexpr TexelFormat kRead[] = {{9, kByte, "R", false, Coding::plain, 1},
                                  {15, kByte, "R", true, Coding::plain, 1},
                                  {10, kFloat, "R", false, Coding::snorm, 1},
@@ -52,6 +56,7 @@ constexpr TexelFormat kRead[] = {{9, kByte, "R", false, Coding::plain, 1},
                                  {123, PixelType::rgb9e5, "RGB", false, Coding::packed, 4},
                                  {143, PixelType::bc6h, "RGB", false, Coding::blocks, 1},
                                  {144, PixelType::bc6h, "RGB", false, Coding::blocks, 1, {}, true},
+                                 {kAstcHdr, PixelType::astc_hdr, "RGBA", false, Coding::blocks, 1},
                                  {1, kByte, "RG", false, Coding::fields, 1, "R4G4", false},
                                  {2, kByte, "RGBA", false, Coding::fields, 2, "R4G4B4A4", false},
                                  {3, kByte, "RGBA", false, Coding::fields, 2, "B4G4R4A4", false},
@@ -73,7 +78,9 @@ constexpr TexelFormat kRead[] = {{9, kByte, "R", false, Coding::plain, 1},
 
 }  // namespace
 
-const TexelFormat* find_format(std::uint32_t number) {
+const TexelFormat* find_format(std::uint32_t number, std::uint32_t colour_model) {
+  // Some writers leave VK_FORMAT_UNDEFINED, as in other files of Basis Universal's.
+  if (colour_model == kModelUastcHdr && (number == kAstcHdr || number == 0)) return &kUastcHdr;
   const auto found = std::find_if(std::begin(kRead), std::end(kRead),
                                   [&](const auto& each) { return each.number == number; });
   return found == std::end(kRead) ? nullptr : found;
@@ -82,6 +89,7 @@ const TexelFormat* find_format(std::uint32_t number) {
 const TexelFormat& format_for(PixelType type, bool two_channels) {
   constexpr std::uint32_t kHalfRg = 83, kFloatRg = 103, kHalfRgba = 97, kFloatRgba = 109, kB10G11R11 = 122,
                           kE5B9G9R9 = 123, kBc6hUfloat = 143;
+  if (type == PixelType::uastc_hdr) return kUastcHdr;
   std::uint32_t number = two_channels ? kFloatRg : kFloatRgba;
   if (type == PixelType::half) number = two_channels ? kHalfRg : kHalfRgba;
   if (type == PixelType::r11g11b10) number = kB10G11R11;

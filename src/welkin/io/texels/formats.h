@@ -16,7 +16,7 @@ enum class Coding {
   doubles,  ///< 64-bit floats
   fields,   ///< integers of a few bits, in one word
   packed,   ///< rgb9e5 or r11g11b10
-  blocks,   ///< bc6h, 4×4 texels at a time
+  blocks,   ///< bc6h, uastc_hdr or astc_hdr, 4×4 texels at a time
 };
 
 /// A format whose texels are read.
@@ -46,11 +46,15 @@ struct TexelFormat {
   }
 };
 
-/// Null when texels of that format are not read.
-const TexelFormat* find_format(std::uint32_t number);
+/// KTX2's number of the colour model of UASTC HDR 4×4: what tells it from other ASTC HDR, whose VkFormat it
+/// has.
+inline constexpr std::uint32_t kModelUastcHdr = 167;
 
-/// The format that pixels of a type are written in: float32 and half with alpha, rgb9e5, r11g11b10, bc6h; or
-/// float32 and half of two channels, R and G.
+/// Null when texels of that format are not read. `colour_model` is KTX2's, 0 in other files.
+const TexelFormat* find_format(std::uint32_t number, std::uint32_t colour_model = 0);
+
+/// The format that pixels of a type are written in: float32 and half with alpha, rgb9e5, r11g11b10, bc6h,
+/// uastc_hdr; or float32 and half of two channels, R and G.
 const TexelFormat& format_for(PixelType type, bool two_channels = false);
 
 }  // namespace welkin::io::texels

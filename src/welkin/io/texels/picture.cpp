@@ -13,6 +13,7 @@
 #include "welkin/io/decode_pixels.h"
 #include "welkin/io/encode_pixels.h"
 #include "welkin/io/write_choices.h"
+#include "welkin/texture/astc_hdr.h"
 #include "welkin/texture/bc6h.h"
 
 namespace welkin::io::texels {
@@ -22,6 +23,10 @@ constexpr std::size_t kBytesOfTask = 1 << 16;
 
 std::size_t grain_of(std::size_t row) {
   return std::max<std::size_t>(1, kBytesOfTask / std::max<std::size_t>(row, 1));
+}
+
+void decode_blocks(const TexelFormat& format, std::span<const std::byte> blocks, ImageView<float> out) {
+  format.type == PixelType::bc6h ? decode_bc6h(blocks, format.is_signed, out) : decode_astc_hdr(blocks, out);
 }
 
 }  // namespace
@@ -66,8 +71,9 @@ void read_picture(const StoredPicture& picture, std::span<const int> channels, I
         picture.bytes + static_cast<std::size_t>(row) * picture.row_stride, bytes);
     const int height = std::min(block, out.height - row * block);
     if (format.coding == Coding::blocks) {
-      decode_bc6h(texels, format.is_signed,
-                  {floats.data(), width, height, 3, static_cast<std::ptrdiff_t>(row_values)});
+      decode_blocks(format, texels,
+                    {floats.data(), width, height, static_cast<int>(format.channels.size()),
+                     static_cast<std::ptrdiff_t>(row_values)});
     } else if (!format.plain()) {
       decode_values(format, texels.data(), width, floats.data());
     }

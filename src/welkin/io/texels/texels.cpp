@@ -14,6 +14,7 @@
 #include "welkin/io/colour/transfer.h"
 #include "welkin/io/shared_exponent.h"
 #include "welkin/io/small_float.h"
+#include "welkin/texture/astc_hdr.h"
 #include "welkin/texture/bc6h.h"
 
 namespace welkin::io::texels {
@@ -277,7 +278,7 @@ void TexelEncoder::encode_two(const float* in, int channels, int count, std::byt
 }
 
 void TexelEncoder::encode(ImageView<const float> rows, std::span<std::byte> out, WriteReport& report) const {
-  if (type_ == PixelType::bc6h) return encode_blocks(rows, out, report);
+  if (type_ == PixelType::bc6h || type_ == PixelType::uastc_hdr) return encode_blocks(rows, out, report);
   encode(rows.row(0), rows.channels, rows.width, out.data(), report);
 }
 
@@ -295,9 +296,10 @@ void TexelEncoder::encode_blocks(ImageView<const float> rows, std::span<std::byt
         *value++ = srgb_ ? static_cast<float>(linear_to_srgb(texel[channel])) : texel[channel];
     }
   }
-  const ClampedValues clamped =
-      encode_bc6h({values.data(), rows.width, rows.height, channels, std::ptrdiff_t{rows.width} * channels},
-                  quality_, out);
+  const ImageView<const float> ordered{values.data(), rows.width, rows.height, channels,
+                                       std::ptrdiff_t{rows.width} * channels};
+  const ClampedValues clamped = type_ == PixelType::bc6h ? encode_bc6h(ordered, quality_, out)
+                                                         : encode_uastc_hdr(ordered, quality_, out);
   report.above += clamped.above;
   report.below += clamped.below;
   report.not_finite += clamped.not_a_number;

@@ -17,7 +17,7 @@ namespace welkin::io::texels {
 /// Float keeps every value. Half keeps infinities and NaN; finite values beyond ±65504 are clipped (`above`).
 /// r11g11b10 keeps +infinity and NaN, and clips at 65024 (R, G) and 64512 (B); rgb9e5 clips at 65408. In both
 /// negative values become 0 (`below`). rgb9e5 stores infinity as its largest value, NaN as 0 (`not_finite`);
-/// bc6h is lossy, clips at 65504, infinity too, and stores NaN as 0.
+/// bc6h and uastc_hdr are lossy, clip at 65504, infinity too, and store NaN as 0.
 /// Rounding is to nearest, in rgb9e5 as its extension demands.
 class TexelEncoder {
  public:
