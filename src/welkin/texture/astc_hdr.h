@@ -9,8 +9,8 @@
 #include "welkin/texture/texture_quality.h"
 
 /// Pictures ↔ blocks of ASTC HDR 4×4: 4×4 texels in 16 bytes, row by row of blocks. Written are the blocks of
-/// UASTC HDR 4×4, a part of ASTC HDR that becomes BC6H without being searched again. docs/textures.md has the
-/// errors.
+/// UASTC HDR 4×4, a part of ASTC HDR that becomes BC6H without being searched again. docs/benchmarks.md has
+/// the errors.
 namespace welkin {
 
 /// Bytes of a picture's blocks, those at its edges as a whole. Throws Error (bad_request) for sizes below 1.

@@ -9,7 +9,7 @@
 #include "welkin/texture/texture_quality.h"
 
 /// Pictures ↔ blocks of BC6H, the textures of half floats that graphics cards read: 4×4 texels of R G B in 16
-/// bytes, row by row of blocks. docs/textures.md has the errors.
+/// bytes, row by row of blocks. docs/benchmarks.md has the errors.
 namespace welkin {
 
 /// Bytes of a picture's blocks, those at its edges as a whole. Throws Error (bad_request) for sizes below 1.

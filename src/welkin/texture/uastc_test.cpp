@@ -205,7 +205,7 @@ TEST(UastcHdr, KeepsDarkTexelsBesideASun) {
   for (std::size_t i = 0; i < texels.size(); ++i) EXPECT_NEAR(std::log(decoded[i] / texels[i]), 0, 0.7) << i;
 }
 
-/// Up to the largest half, beside nothing too, though no block but one of one colour holds more than 65344.
+/// Up to the largest half, beside nothing too, though no block but one of one colour holds more than 65216.
 TEST(UastcHdr, KeepsTheBrightest) {
   std::mt19937 random(6);
   for (int round = 0; round < 300; ++round) {
