@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <utility>
 #include <vector>
 
 namespace welkin {
@@ -266,10 +268,42 @@ void fill_from_neighbours(const AnyParameterization& p, Level& level, bool whole
   }
 }
 
+/// Whether all of the border are texels of the map: past a pole, those of the opposite meridian.
+bool repeats_latlong(const AnyParameterization& p, const Level& level) {
+  return p.traits().latlong_grid && level.width() % 2 == 0 &&
+         std::min(level.width(), level.height()) >= kBorder;
+}
+
+void repeat_latlong(Level& grid) {
+  const ImageView<float> chart = grid.chart(0);
+  const int width = grid.width(), height = grid.height(), n = grid.channels();
+  const std::ptrdiff_t half = static_cast<std::ptrdiff_t>(width / 2) * n, row_length = 2 * half;
+  const auto copy = [](float* to, const float* from, std::ptrdiff_t values) {
+    std::memcpy(to, from, static_cast<std::size_t>(values) * sizeof(float));
+  };
+  for (int b = 0; b < kBorder; ++b) {
+    for (const auto& [to, from] : {std::pair(chart.row(-1 - b), chart.row(b)),
+                                   std::pair(chart.row(height + b), chart.row(height - 1 - b))}) {
+      copy(to, from + half, half);
+      copy(to + half, from, half);
+    }
+  }
+  const std::ptrdiff_t border = static_cast<std::ptrdiff_t>(kBorder) * n;
+  for (int y = -kBorder; y < height + kBorder; ++y) {
+    float* at = chart.row(y);
+    copy(at - border, at + row_length - border, border);
+    copy(at + row_length, at, border);
+  }
+}
+
 }  // namespace
 
 void fill_borders(const AnyParameterization& p, Level& level) {
   require(level.charts() == p.charts(), "a level has another number of charts than its parameterization");
+  if (repeats_latlong(p, level)) {
+    repeat_latlong(level);
+    return;
+  }
   std::vector<Texel> texels;
   const bool whole = p.full_charts();
   if (!whole) collect_rim(p, level, texels);

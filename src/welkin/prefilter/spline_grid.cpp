@@ -1,5 +1,6 @@
 #include "welkin/prefilter/spline_grid.h"
 #include "welkin/base/parallel.h"
+#include "welkin/map/borders.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,8 @@ void to_splines(std::span<Level> grids, const Monitor& monitor) {
         to_spline_columns(grids[strip.grid], strip.first, strip.last);
       },
       monitor);
-  for (Level& grid : grids) fill_latlong_border(grid);
+  const auto latlong = sphere::AnyParameterization::make("latlong");
+  for (Level& grid : grids) fill_borders(latlong, grid);
 }
 
 void store_lanes(const float* lanes, const std::array<float*, 16>& rows, const Level& grid) {
@@ -83,29 +85,6 @@ void store_lanes(const float* lanes, const std::array<float*, 16>& rows, const L
       float* row = rows[lane];
       for (std::ptrdiff_t x = first; x < last; ++x) row[x * channels] = from[x * 16];
     }
-  }
-}
-
-void fill_latlong_border(Level& grid) {
-  const ImageView<float> chart = grid.chart(0);
-  const int width = grid.width(), height = grid.height(), n = grid.channels();
-  const std::ptrdiff_t half = static_cast<std::ptrdiff_t>(width / 2) * n, row_length = 2 * half;
-  const auto copy = [](float* to, const float* from, std::ptrdiff_t values) {
-    std::memcpy(to, from, static_cast<std::size_t>(values) * sizeof(float));
-  };
-  for (int b = 0; b < kBorder; ++b) {
-    const int across = std::min(b, height - 1);
-    for (const auto& [to, from] : {std::pair(chart.row(-1 - b), chart.row(across)),
-                                   std::pair(chart.row(height + b), chart.row(height - 1 - across))}) {
-      copy(to, from + half, half);
-      copy(to + half, from, half);
-    }
-  }
-  const std::ptrdiff_t border = static_cast<std::ptrdiff_t>(kBorder) * n;
-  for (int y = -kBorder; y < height + kBorder; ++y) {
-    float* at = chart.row(y);
-    copy(at - border, at + row_length - border, border);
-    copy(at + row_length, at, border);
   }
 }
 

@@ -22,8 +22,4 @@ void to_splines(std::span<Level> grids, const Monitor& monitor);
 /// null where a lane isn't wanted.
 void store_lanes(const float* lanes, const std::array<float*, 16>& rows, const Level& grid);
 
-/// Fills the border of a lat-long level: left and right go around, past a pole rows continue down the
-/// opposite meridian.
-void fill_latlong_border(Level& grid);
-
 }  // namespace welkin::prefilter

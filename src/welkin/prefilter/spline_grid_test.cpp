@@ -7,6 +7,7 @@
 #include <random>
 
 #include "welkin/filter/fetch.h"
+#include "welkin/map/borders.h"
 #include "welkin/math/vec.h"
 
 namespace welkin::prefilter {
@@ -45,7 +46,7 @@ Level grid_of(int height, int channels, int strip) {
     }
   }
   for (int x = 0; x < height; x += strip) to_spline_columns(grid, x, std::min(height, x + strip));
-  fill_latlong_border(grid);
+  fill_borders(sphere::AnyParameterization::make("latlong"), grid);
   return grid;
 }
 
