@@ -147,7 +147,14 @@ BakePlan::BakePlan(const Map& source, const BakeOptions& options)
 Chain BakePlan::run(const Map& source, const Monitor& monitor) const {
   if (drops_alpha(source, options_.keep_alpha)) return run(without_alpha(source), monitor);
   if (plan_) return {plan_->run(source, monitor), notes_};
-  const SourceFaults faults = faults_of(source, without_progress(monitor));
+  SourceFaults faults;
+  return run(source, faults, monitor);
+}
+
+Chain BakePlan::run(const Map& source, SourceFaults& faults, const Monitor& monitor) const {
+  if (drops_alpha(source, options_.keep_alpha)) return run(without_alpha(source), faults, monitor);
+  if (plan_) return {plan_->run(source, faults, monitor), notes_};
+  faults = faults_of(source, without_progress(monitor));
   if (faults.not_finite + faults.excessive > 0) {
     throw Error(ErrorKind::bad_value,
                 "paraboloid-convolution: the map has values that are NaN, infinite, or beyond ±1e30");

@@ -80,6 +80,8 @@ class WELKIN_API BakePlan {
   /// The chain of a map, whose borders are filled; those of the chain's levels are too, unless the options
   /// say otherwise. Throws as PrefilterPlan::run does.
   Chain run(const Map& source, const Monitor& monitor = {}) const;
+  /// The same, and what faults_of says of the source (of what is filtered of it), as PrefilterPlan::run does.
+  Chain run(const Map& source, SourceFaults& faults, const Monitor& monitor = {}) const;
 
   /// Size and lobe of each level; valid as long as the plan.
   const std::vector<PrefilterLevel>& levels() const { return levels_; }

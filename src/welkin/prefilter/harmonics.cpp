@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
-#include <mutex>
 
 #include "welkin/base/parallel.h"
 #include "welkin/prefilter/bright_points.h"
@@ -28,10 +26,10 @@ std::size_t offset_of(int m, int degree) {
 /// The pipeline for up to three channels from `first`.
 class Harmonics {
  public:
-  Harmonics(const Tables& tables, PointGrid& points, const BrightPoints& bright, int first, int channels,
-            std::vector<Level>& grids)
-      : t_(tables),
-        a_(*tables.analysis),
+  Harmonics(const HarmonicAnalysis& analysis, const std::vector<HarmonicLevel>& levels, PointGrid& points,
+            const BrightPoints& bright, int first, int channels, std::vector<Level>& grids)
+      : a_(analysis),
+        levels_(levels),
         points_(points),
         bright_(bright),
         first_(first),
@@ -39,13 +37,15 @@ class Harmonics {
         parts_(2 * channels),
         grids_(grids) {}
 
-  void run(const Monitor& monitor) {
+  /// `power`: see synthesise_levels; null: not wanted.
+  void run(std::vector<double>* power, const Monitor& monitor) {
     // What is done with gives its memory to what comes next.
     transform_rows(part_of(monitor, 0, 0.1));
     if (first_ + channels_ == points_.channels) points_.lanes = Buffer();
     analyse(part_of(monitor, 0.1, 0.4));
     orders_ = Buffer();
-    if (std::any_of(t_.harmonic.begin(), t_.harmonic.end(), [](const auto& level) { return level.all; }))
+    if (power != nullptr) add_power(*power);
+    if (std::any_of(levels_.begin(), levels_.end(), [](const auto& level) { return level.all; }))
       add_bright();
     synthesise(part_of(monitor, 0.4, 0.85));
     coefficients_ = Buffer();
@@ -87,6 +87,19 @@ class Harmonics {
               coefficients_.data() + offset_of(m, a_.degree) * static_cast<std::size_t>(parts_));
         },
         monitor);
+  }
+
+  /// Of degrees up to half of the last, which the points give precisely.
+  void add_power(std::vector<double>& power) const {
+    for (int m = 0; m <= a_.degree / 2; ++m) {
+      const float* a = coefficients_.data() + offset_of(m, a_.degree) * static_cast<std::size_t>(parts_);
+      for (int l = m; l <= a_.degree / 2; ++l, a += parts_) {
+        for (int part = 0; part < parts_; ++part) {
+          const double value = static_cast<double>(a[part]);
+          power[static_cast<std::size_t>(first_ + part / 2)] += (m > 0 ? 2 : 1) * value * value;
+        }
+      }
+    }
   }
 
   /// What far parts of narrow lobes and smooth lobes need: the coefficients of all points, the bright ones
@@ -139,9 +152,9 @@ class Harmonics {
       int m;
     };
     std::vector<Item> items;
-    level_orders_.resize(t_.harmonic.size());
-    for (std::size_t i = 0; i < t_.harmonic.size(); ++i) {
-      const HarmonicLevel& level = t_.harmonic[i];
+    level_orders_.resize(levels_.size());
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      const HarmonicLevel& level = levels_[i];
       level_orders_[i] = Buffer(order_size(level.latitudes) * static_cast<std::size_t>(level.degree + 1));
       for (int m = 0; m <= level.degree; ++m) items.push_back({i, m});
     }
@@ -150,8 +163,8 @@ class Harmonics {
         [&](int k) {
           const auto [i, m] = items[static_cast<std::size_t>(k)];
           synthesise_order(
-              t_.harmonic[i], t_.harmonic[i].all ? all_coefficients_ : coefficients_, m,
-              level_orders_[i].data() + order_size(t_.harmonic[i].latitudes) * static_cast<std::size_t>(m));
+              levels_[i], levels_[i].all ? all_coefficients_ : coefficients_, m,
+              level_orders_[i].data() + order_size(levels_[i].latitudes) * static_cast<std::size_t>(m));
         },
         monitor);
   }
@@ -177,7 +190,7 @@ class Harmonics {
 
   void transform_back(const Monitor& monitor) {
     if (grids_.empty()) {
-      for (const HarmonicLevel& level : t_.harmonic)
+      for (const HarmonicLevel& level : levels_)
         grids_.emplace_back(1, level.grid.width, level.grid.height, points_.channels, PixelContents::unset);
     }
     struct Item {
@@ -185,14 +198,14 @@ class Harmonics {
       int pack;
     };
     std::vector<Item> items;
-    for (std::size_t i = 0; i < t_.harmonic.size(); ++i) {
-      for (int pack = 0; pack < t_.harmonic[i].latitudes.packs; ++pack) items.push_back({i, pack});
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      for (int pack = 0; pack < levels_[i].latitudes.packs; ++pack) items.push_back({i, pack});
     }
     parallel_for(
         static_cast<int>(items.size()),
         [&](int k) {
           const auto [i, pack] = items[static_cast<std::size_t>(k)];
-          const HarmonicLevel& level = t_.harmonic[i];
+          const HarmonicLevel& level = levels_[i];
           const std::size_t size = static_cast<std::size_t>(level.grid.width) * 16;
           Buffer memory(2 * size);
           for (int c = 0; c < channels_; ++c) {
@@ -219,8 +232,8 @@ class Harmonics {
     store_lanes(lanes, rows, grid);
   }
 
-  const Tables& t_;
   const HarmonicAnalysis& a_;
+  const std::vector<HarmonicLevel>& levels_;
   PointGrid& points_;
   const BrightPoints& bright_;
   int first_, channels_, parts_;
@@ -228,19 +241,6 @@ class Harmonics {
   Buffer orders_, coefficients_, all_coefficients_;
   std::vector<Buffer> level_orders_;
 };
-
-/// One thread's work: a worker that waits for this must not be given other work meanwhile.
-bool has_negative(const Map& map) {
-  for (int chart = 0; chart < map.charts(); ++chart) {
-    for (int y = 0; y < map.height(); ++y) {
-      const float* row = map.level.chart(chart).row(y);
-      int below = 0;
-      for (int i = 0; i < map.width() * map.channels(); ++i) below += row[i] < 0 ? 1 : 0;
-      if (below > 0) return true;
-    }
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -265,9 +265,9 @@ std::vector<float> phases(int last, int grid_width, int points_width) {
   return phase_factors;
 }
 
-HarmonicAnalysis::HarmonicAnalysis(const PrefilterShape& source, int maximum)
+HarmonicAnalysis::HarmonicAnalysis(const PrefilterShape& source, int maximum, PointGridPlan::Rows use)
     : degree(maximum),
-      points(source.parameterization, source.size, degree),
+      points(source.parameterization, source.size, degree, use),
       fft(points.width),
       latitudes(points.height, degree),
       factors(order_factors(points, degree)) {
@@ -289,16 +289,26 @@ HarmonicLevel::HarmonicLevel(const WidenedLobe& widened, const std::vector<doubl
   grid.height = grid.width / 2;
 }
 
+std::vector<Level> synthesise_levels(const HarmonicAnalysis& analysis,
+                                     const std::vector<HarmonicLevel>& levels, PointGrid& points,
+                                     const BrightPoints& bright, std::vector<double>* power,
+                                     const Monitor& monitor) {
+  if (power != nullptr) power->assign(static_cast<std::size_t>(points.channels), 0.0);
+  std::vector<Level> grids;
+  for (int first = 0; first < points.channels; first += 3) {
+    const int channels = std::min(3, points.channels - first);
+    const double share = 1.0 / points.channels;
+    Harmonics(analysis, levels, points, bright, first, channels, grids)
+        .run(power, part_of(monitor, first * share, (first + channels) * share));
+  }
+  return grids;
+}
+
 HarmonicResults run_harmonics(const Tables& t, const Map& source, const Monitor& monitor) {
   PointGrid points = make_point_grid(source, t.analysis->points, part_of(monitor, 0, 0.2));
   const BrightPoints bright = take_bright_points(points, {}, part_of(monitor, 0.2, 0.22));
-
-  std::vector<Level> grids;
-  for (int first = 0; first < source.channels(); first += 3) {
-    const double share = 0.28 / source.channels(), from = 0.22 + first * share;
-    const int channels = std::min(3, source.channels() - first);
-    Harmonics(t, points, bright, first, channels, grids).run(part_of(monitor, from, from + channels * share));
-  }
+  std::vector<Level> grids =
+      synthesise_levels(*t.analysis, t.harmonic, points, bright, nullptr, part_of(monitor, 0.22, 0.5));
 
   std::vector<std::vector<Level>> near_grids;
   std::vector<const Level*> near(t.harmonic.size(), nullptr);
@@ -311,66 +321,7 @@ HarmonicResults run_harmonics(const Tables& t, const Map& source, const Monitor&
   }
 
   to_splines(grids, part_of(monitor, 0.7, 0.72));
-
-  // Sums of light that is never negative are clamped to that. Whether it is, is found out when it first
-  // matters.
-  std::once_flag once;
-  bool negative = false;
-  const std::function<bool()> is_nonnegative = [&] {
-    std::call_once(once, [&] { negative = has_negative(source); });
-    return !negative;
-  };
-
-  HarmonicResults results;
-  for (const HarmonicLevel& level : t.harmonic)
-    results.levels.push_back(t.result(static_cast<std::size_t>(level.index), source));
-  std::vector<LevelTexels> texels;
-  for (std::size_t i = 0; i < t.harmonic.size(); ++i) {
-    Map& map = results.levels[i];
-    const Matrix3 to_source = source.orientation * transpose(map.orientation);
-    texels.emplace_back(t.harmonic[i], grids[i], near[i], bright, to_source, is_nonnegative, map);
-  }
-  std::vector<GroupTexels> groups;
-  std::vector<bool> grouped(texels.size(), false);
-  for (const LevelGroup& group : t.groups) {
-    std::vector<const LevelTexels*> members;
-    for (const std::size_t each : group.harmonic) {
-      members.push_back(&texels[each]);
-      grouped[each] = true;
-    }
-    groups.emplace_back(group.lobes, std::move(members), bright);
-  }
-
-  struct Band {
-    const LevelTexels* level;
-    const GroupTexels* group;  ///< null: the level alone
-    int chart, row, rows;
-  };
-  std::vector<Band> bands;
-  const auto add_bands = [&](const LevelTexels& level, const GroupTexels* group) {
-    const Map& map = level.result();
-    const int rows = std::max(1, (group != nullptr ? 512 : 2048) / map.width());
-    for (int chart = 0; chart < map.charts(); ++chart) {
-      for (int y = 0; y < map.height(); y += rows)
-        bands.push_back({&level, group, chart, y, std::min(rows, map.height() - y)});
-    }
-  };
-  for (std::size_t i = 0; i < groups.size(); ++i) add_bands(texels[t.groups[i].harmonic.front()], &groups[i]);
-  for (std::size_t i = 0; i < texels.size(); ++i) {
-    if (!grouped[i]) add_bands(texels[i], nullptr);
-  }
-  parallel_for(
-      static_cast<int>(bands.size()),
-      [&](int k) {
-        const Band& band = bands[static_cast<std::size_t>(k)];
-        if (band.group != nullptr) {
-          band.group->rows(band.chart, band.row, band.rows);
-        } else {
-          band.level->rows(band.chart, band.row, band.rows);
-        }
-      },
-      part_of(monitor, 0.72, 1));
-  return results;
+  return {make_level_texels(t, t.harmonic, grids, near, bright, source, part_of(monitor, 0.72, 1))};
 }
 
 }  // namespace welkin::prefilter

@@ -23,7 +23,8 @@ std::vector<float> phases(int last, int grid_width, int points_width);
 
 /// What all levels share: from weighted points to coefficients.
 struct HarmonicAnalysis {
-  HarmonicAnalysis(const PrefilterShape& source, int degree);
+  HarmonicAnalysis(const PrefilterShape& source, int degree,
+                   PointGridPlan::Rows use = PointGridPlan::Rows::locate_suns);
 
   int degree;
   PointGridPlan points;
@@ -50,6 +51,16 @@ struct HarmonicLevel {
   std::optional<SampledLobe> sampled;  ///< of a table, as a widened lobe is
   double scale;                        ///< of a weight, so that the lobe's integral is 1
 };
+
+struct BrightPoints;
+
+/// From weighted points, `bright` ones apart, to the grids of the levels, before they are splines. `power`:
+/// null, or filled with Σ |L_lm|² of each channel, of the points that aren't bright and degrees up to half of
+/// the analysis's. The points are gone afterwards. Throws Cancelled.
+std::vector<Level> synthesise_levels(const HarmonicAnalysis& analysis,
+                                     const std::vector<HarmonicLevel>& levels, PointGrid& points,
+                                     const BrightPoints& bright, std::vector<double>* power,
+                                     const Monitor& monitor);
 
 struct HarmonicResults {
   std::vector<Map> levels;  ///< in the order of Tables::harmonic, borders not filled

@@ -19,6 +19,9 @@ struct SpreadRows {
   ImageView<const float> picture;
   const RowSpread& down;
   const ColumnSpread& along;
+  /// Of each row of the picture, to be found out in passing; null: not wanted. Then the picture has a whole
+  /// number of rows for each row of points, and RowValues::kMostChannels at most.
+  RowValues* values = nullptr;
 
   /// Values of work space that the kernel needs.
   std::size_t work() const {

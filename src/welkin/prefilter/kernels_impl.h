@@ -62,6 +62,47 @@ struct KernelsOf {
     }
   }
 
+  /// Adds what columns [begin, end) of a row of the picture hold.
+  static void add_values(const SpreadRows& r, int row, int begin, int end) {
+    const int n = r.picture.channels, count = (end - begin) * n;
+    const float* from = r.picture.data + row * r.picture.row_stride + static_cast<std::ptrdiff_t>(begin) * n;
+    RowValues& values = r.values[row];
+    V squares[RowValues::kMostChannels], largest(values.largest), smallest(-values.smallest);
+    for (V& each : squares) each = V(0.0f);
+    int i = 0;
+    for (; i + 8 * n <= count; i += 8 * n) {
+      for (int k = 0; k < n; ++k) {
+        const V value = V::load(from + i + 8 * k);
+        squares[k] = V::fma(value, value, squares[k]);
+        largest = V::max(largest, value);
+        smallest = V::max(smallest, V(0.0f) - value);
+      }
+    }
+    values.largest = largest.largest();
+    values.smallest = -smallest.largest();
+    alignas(64) float lanes[8];
+    for (int k = 0; k < n; ++k) {
+      squares[k].store(lanes);
+      for (int lane = 0; lane < 8; ++lane)
+        values.squares[(8 * k + lane) % n] += static_cast<double>(lanes[lane]);
+    }
+    for (; i < count; ++i) {
+      values.squares[i % n] += static_cast<double>(from[i]) * static_cast<double>(from[i]);
+      values.largest = std::max(values.largest, from[i]);
+      values.smallest = std::min(values.smallest, from[i]);
+    }
+  }
+
+  /// Of the rows of the picture that lie in the pack's rows of points.
+  static void add_pack_values(const SpreadRows& r, int pack, int begin, int end) {
+    const int rows = static_cast<int>(r.down.first.size()) - 1, each = r.picture.height / rows;
+    const int first = pack * 8 * each, last = std::min(first + 8 * each, rows / 2 * each);
+    for (int row = first; row < last; ++row) {
+      add_values(r, row, begin, end);
+      add_values(r, r.picture.height - 1 - row, begin, end);
+    }
+  }
+
   static void spread_rows(const SpreadRows& r, int pack, float* lanes, float* work) {
     const int columns = r.along.columns, reach = r.along.reach, width = r.picture.width;
     const int kChunk = columns > 128 ? columns : 128;  // columns of the picture; a power of two, as `columns`
@@ -73,6 +114,7 @@ struct KernelsOf {
     float* mixed = work + plane * n;
     for (int begin = 0; begin < width; begin += kChunk) {
       const int end = begin + kChunk < width ? begin + kChunk : width;
+      if (r.values != nullptr) add_pack_values(r, pack, begin, end);
       for (int lane = 0; lane < 16; ++lane) {
         const int north = pack * 8 + lane % 8;
         float* row = mixed + lane * row_length;

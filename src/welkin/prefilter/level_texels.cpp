@@ -2,10 +2,29 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 
+#include "welkin/base/parallel.h"
 #include "welkin/prefilter/kernels.h"
+#include "welkin/prefilter/plan.h"
 
 namespace welkin::prefilter {
+namespace {
+
+/// One thread's work: a worker that waits for this must not be given other work meanwhile.
+bool has_negative(const Map& map) {
+  for (int chart = 0; chart < map.charts(); ++chart) {
+    for (int y = 0; y < map.height(); ++y) {
+      const float* row = map.level.chart(chart).row(y);
+      int below = 0;
+      for (int i = 0; i < map.width() * map.channels(); ++i) below += row[i] < 0 ? 1 : 0;
+      if (below > 0) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
 
 void LevelTexels::aim(int chart, int from, std::size_t first, Tile& tile) const {
   const int width = result_.width(), height = result_.height();
@@ -90,6 +109,70 @@ void LevelTexels::add_bright(const float* x, const float* y, const float* z, flo
   } else {
     kernels().sampled_sums(&*level_.sampled, points, x, y, z, values, count);
   }
+}
+
+std::vector<Map> make_level_texels(const PrefilterPlan::Tables& t, const std::vector<HarmonicLevel>& levels,
+                                   const std::vector<Level>& grids, const std::vector<const Level*>& near,
+                                   const BrightPoints& bright, const Map& source, const Monitor& monitor) {
+  // Sums of light that is never negative are clamped to that. Whether it is, is found out when it first
+  // matters.
+  std::once_flag once;
+  bool negative = false;
+  const std::function<bool()> is_nonnegative = [&] {
+    std::call_once(once, [&] { negative = has_negative(source); });
+    return !negative;
+  };
+
+  std::vector<Map> results;
+  for (const HarmonicLevel& level : levels)
+    results.push_back(t.result(static_cast<std::size_t>(level.index), source));
+  std::vector<LevelTexels> texels;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    Map& map = results[i];
+    const Matrix3 to_source = source.orientation * transpose(map.orientation);
+    texels.emplace_back(levels[i], grids[i], near[i], bright, to_source, is_nonnegative, map);
+  }
+  std::vector<GroupTexels> groups;
+  std::vector<bool> grouped(texels.size(), false);
+  for (const LevelGroup& group : t.groups) {
+    std::vector<const LevelTexels*> members;
+    for (const std::size_t each : group.harmonic) {
+      members.push_back(&texels[each]);
+      grouped[each] = true;
+    }
+    groups.emplace_back(group.lobes, std::move(members), bright);
+  }
+
+  struct Band {
+    const LevelTexels* level;
+    const GroupTexels* group;  ///< null: the level alone
+    int chart, row, rows;
+  };
+  std::vector<Band> bands;
+  const auto add_bands = [&](const LevelTexels& level, const GroupTexels* group) {
+    const Map& map = level.result();
+    const int rows = std::max(1, (group != nullptr ? 512 : 2048) / map.width());
+    for (int chart = 0; chart < map.charts(); ++chart) {
+      for (int y = 0; y < map.height(); y += rows)
+        bands.push_back({&level, group, chart, y, std::min(rows, map.height() - y)});
+    }
+  };
+  for (std::size_t i = 0; i < groups.size(); ++i) add_bands(texels[t.groups[i].harmonic.front()], &groups[i]);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!grouped[i]) add_bands(texels[i], nullptr);
+  }
+  parallel_for(
+      static_cast<int>(bands.size()),
+      [&](int k) {
+        const Band& band = bands[static_cast<std::size_t>(k)];
+        if (band.group != nullptr) {
+          band.group->rows(band.chart, band.row, band.rows);
+        } else {
+          band.level->rows(band.chart, band.row, band.rows);
+        }
+      },
+      monitor);
+  return results;
 }
 
 }  // namespace welkin::prefilter

@@ -83,4 +83,11 @@ class GroupTexels {
   const BrightPoints& bright_;
 };
 
+/// The maps of `levels` from their splines; `near`: of each, the grid of a near part, or null. Borders not
+/// filled. Throws Cancelled.
+std::vector<Map> make_level_texels(const PrefilterPlan::Tables& tables,
+                                   const std::vector<HarmonicLevel>& levels, const std::vector<Level>& grids,
+                                   const std::vector<const Level*>& near, const BrightPoints& bright,
+                                   const Map& source, const Monitor& monitor);
+
 }  // namespace welkin::prefilter

@@ -164,6 +164,11 @@ PrefilterPlan::PrefilterPlan(const PrefilterShape& source, const sphere::AnyPara
     }
   }
   add_groups(*tables);
+  std::vector<const WidenedLobe*> lobes;
+  for (const HarmonicLevel& each : tables->harmonic)
+    lobes.push_back(&choices[static_cast<std::size_t>(each.index)]->lobe);
+  if (tables->near.empty() && tables->groups.empty())
+    tables->coarse = CoarsePlan::make(source, tables->harmonic, lobes, options.tolerance);
   tables_ = std::move(tables);
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "welkin/prefilter/coarse.h"
 #include "welkin/prefilter/harmonics.h"
 #include "welkin/prefilter/near.h"
 #include "welkin/prefilter/prefilter.h"
@@ -32,6 +33,7 @@ struct PrefilterPlan::Tables {
   std::vector<prefilter::HarmonicLevel> harmonic = {};       ///< in order of level
   std::vector<prefilter::NearGroup> near = {};
   std::vector<prefilter::LevelGroup> groups = {};
+  std::optional<prefilter::CoarsePlan> coarse = {};  ///< tried first
 
   /// Where a level's result goes: a map of its size, with the names of the source's channels. All of its
   /// texels are to be written, and its borders where the options ask for them.

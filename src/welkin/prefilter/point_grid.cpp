@@ -18,8 +18,9 @@ namespace {
 
 using sphere::AnyParameterization;
 
-void spread_rows(const Map& map, const PointGridPlan& plan, PointGrid& grid, const Monitor& monitor) {
-  const SpreadRows rows{map.level.chart(0), *plan.rows, *plan.columns};
+void spread_rows(const Map& map, const PointGridPlan& plan, RowValues* values, PointGrid& grid,
+                 const Monitor& monitor) {
+  const SpreadRows rows{map.level.chart(0), *plan.rows, *plan.columns, values};
   parallel_for(
       grid.packs,
       [&](int pack) {
@@ -147,10 +148,10 @@ ColumnSpread ColumnSpread::boxes() {
   return spread;
 }
 
-PointGridPlan::PointGridPlan(const AnyParameterization& source, ChartSize size, int degree) {
+PointGridPlan::PointGridPlan(const AnyParameterization& source, ChartSize size, int degree, Rows use) {
   const double texel = mean_texel(source, size);
-  const int minimum = std::max(
-      {16, static_cast<int>(1.42 * degree), std::min(kSunRows, static_cast<int>(0.9 * kPi / texel))});
+  const int sun_rows = use == Rows::locate_suns ? std::min(kSunRows, static_cast<int>(0.9 * kPi / texel)) : 0;
+  const int minimum = std::max({16, static_cast<int>(1.42 * degree), sun_rows});
   // Columns far wider than what the lobes resolve can't be treated as boxes along the row alone.
   if (!has_plain_rows(source, size) || (degree > size.width && size.height > size.width)) {
     width = fft_length(std::max(2 * minimum + minimum / 4, 64));
@@ -193,8 +194,18 @@ PointGrid make_point_grid(const Map& map, const PointGridPlan& plan, const Monit
   if (plan.way == PointGridPlan::Way::spread_texels) {
     spread_texels(map, grid, monitor);
   } else {
-    spread_rows(map, plan, grid, monitor);
+    spread_rows(map, plan, nullptr, grid, monitor);
   }
+  return grid;
+}
+
+PointGrid make_point_grid(const Map& map, const PointGridPlan& plan, std::span<RowValues> values,
+                          const Monitor& monitor) {
+  assert(plan.rows && values.size() == static_cast<std::size_t>(map.height()));
+  assert(map.height() % plan.height == 0 && map.channels() <= RowValues::kMostChannels);
+  PointGrid grid(plan.width, plan.height, map.channels());
+  grid.boxes = plan.way == PointGridPlan::Way::spread_boxes;
+  spread_rows(map, plan, values.data(), grid, monitor);
   return grid;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "welkin/base/monitor.h"
@@ -54,6 +55,13 @@ struct RowSpread {
   int rows() const { return static_cast<int>(first.size()) - 1; }
 };
 
+/// What a row of a picture holds.
+struct RowValues {
+  static constexpr int kMostChannels = 4;
+  double squares[kMostChannels] = {};  ///< Σ value², not finite where a value isn't
+  float largest = 0, smallest = 0;     ///< of all channels, and 0
+};
+
 /// How texels spread along a row onto columns of points, a whole number of texels to a column.
 struct ColumnSpread {
   /// `columns` texels to a column: through the four columns about each position. 1: a texel as wide as the
@@ -73,8 +81,14 @@ struct PointGridPlan {
     spread_boxes,   ///< lat-long with columns too wide for points: PointGrid::boxes
     spread_texels,  ///< any map, texel by texel (spreading.h)
   };
+  /// What else a grid's rows are for.
+  enum class Rows {
+    locate_suns,  ///< bright points are the grid's own
+    few,          ///< no more than the degree needs
+  };
   /// For harmonics up to this degree.
-  PointGridPlan(const sphere::AnyParameterization& source, ChartSize size, int degree);
+  PointGridPlan(const sphere::AnyParameterization& source, ChartSize size, int degree,
+                Rows use = Rows::locate_suns);
   /// With this many rows, for NearField; columns as wide as the picture's while there aren't three to a row.
   static PointGridPlan with_rows(const sphere::AnyParameterization& source, ChartSize size, int rows);
 
@@ -89,5 +103,8 @@ struct PointGridPlan {
 
 /// The weighted points of a map of the plan's shape. Throws Cancelled.
 PointGrid make_point_grid(const Map& map, const PointGridPlan& plan, const Monitor& monitor);
+/// The same of a lat-long, and what its rows hold: as many `values` as it has rows.
+PointGrid make_point_grid(const Map& map, const PointGridPlan& plan, std::span<RowValues> values,
+                          const Monitor& monitor);
 
 }  // namespace welkin::prefilter

@@ -8,7 +8,6 @@
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
 #include "welkin/prefilter/plan.h"
-#include "welkin/prefilter/source_faults.h"
 
 namespace welkin {
 namespace {
@@ -16,8 +15,7 @@ namespace {
 using namespace prefilter;
 
 /// Throws for what can't be convolved.
-void check_values(const Map& source, const Monitor& monitor) {
-  const SourceFaults faults = faults_of(source, without_progress(monitor));
+void check_values(const SourceFaults& faults) {
   if (faults.not_finite + faults.excessive > 0)
     throw Error(ErrorKind::bad_value,
                 "prefilter: the map has values that are NaN, infinite, or beyond ±1e30");
@@ -35,6 +33,15 @@ Map PrefilterPlan::Tables::result(std::size_t level, const Map& map) const {
 }
 
 std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) const {
+  return run(source, nullptr, monitor);
+}
+
+std::vector<Map> PrefilterPlan::run(const Map& source, SourceFaults& faults, const Monitor& monitor) const {
+  faults = {};
+  return run(source, &faults, monitor);
+}
+
+std::vector<Map> PrefilterPlan::run(const Map& source, SourceFaults* faults, const Monitor& monitor) const {
   source.check();
   const Tables& t = *tables_;
   if (!(source.parameterization == t.source.parameterization) || source.width() != t.source.size.width ||
@@ -42,11 +49,15 @@ std::vector<Map> PrefilterPlan::run(const Map& source, const Monitor& monitor) c
     throw Error(ErrorKind::mismatch, "prefilter: the map has another shape than the plan was made for");
   }
   HarmonicResults harmonic;
-  if (t.harmonic.empty()) {
-    check_values(source, monitor);
-  } else {
-    harmonic = run_harmonics(t, source, monitor);
+  std::optional<HarmonicResults> coarse;
+  bool negative = false;
+  if (t.coarse) coarse = run_coarse(t, source, negative, monitor);
+  if (t.harmonic.empty() || (faults != nullptr && (!coarse || negative))) {
+    const SourceFaults found = faults_of(source, without_progress(monitor));
+    if (faults != nullptr) *faults = found;
+    check_values(found);
   }
+  if (!t.harmonic.empty()) harmonic = coarse ? std::move(*coarse) : run_harmonics(t, source, monitor);
   std::vector<Map> results;
   auto next = harmonic.levels.begin();
   for (std::size_t i = 0; i < t.levels.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "welkin/filter/filter.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/map/map.h"
+#include "welkin/prefilter/source_faults.h"
 
 /// @file
 /// Pre-filtering: a map averaged with a lobe about every direction, so that lighting a material is one
@@ -56,7 +57,7 @@ struct PrefilterOptions {
 /// How a level is computed.
 struct PrefilterMethod {
   std::string name;  ///< `resample`, `harmonics`, `near and far` (docs/prefiltering.md)
-  int degree = 0;    ///< of the harmonics
+  int degree = 0;    ///< of the harmonics; wide lobes make do with fewer where the map allows it
   ChartSize grid;    ///< of directions at which they are synthesised, to be interpolated by a spline
   /// What the level is filtered with: the level's lobe, or where that is narrower than texels, a table of it
   /// convolved with a Gaussian (docs/prefiltering.md). The reference for the level is brute force with this
@@ -79,6 +80,9 @@ class WELKIN_API PrefilterPlan {
   /// that aren't finite, or so large that their sum passes 1e34; Cancelled. Results are never negative where
   /// the source isn't. The same numbers whatever the number of threads.
   std::vector<Map> run(const Map& source, const Monitor& monitor = {}) const;
+  /// The same, and what faults_of says of the source, found in passing where that is possible. It is set
+  /// also where it is why Error is thrown; here any value beyond ±kMaxRadiance is a reason.
+  std::vector<Map> run(const Map& source, SourceFaults& faults, const Monitor& monitor = {}) const;
 
   /// How each level is computed; valid as long as the plan or a copy of it.
   const std::vector<PrefilterMethod>& methods() const;
@@ -86,6 +90,8 @@ class WELKIN_API PrefilterPlan {
   struct Tables;
 
  private:
+  std::vector<Map> run(const Map& source, SourceFaults* faults, const Monitor& monitor) const;
+
   std::shared_ptr<const Tables> tables_;
 };
 

@@ -13,11 +13,9 @@
 #include <utility>
 
 #include "welkin/base/error.h"
-#include "welkin/base/number_text.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map_file/chain_file.h"
 #include "welkin/measure/compare.h"
-#include "welkin/prefilter/source_faults.h"
 #include "welkin/sequence/failures.h"
 #include "welkin/sequence/frame_checks.h"
 #include "welkin/sequence/frame_plan.h"
@@ -58,7 +56,7 @@ class FrameBaker {
   void plan_work();
   FramePlan plan_of(FrameRange range, const std::set<int>& there) const;
   void check_outputs(const Map& first);
-  /// Reads, repairs and checks a frame.
+  /// Reads and repairs a frame.
   void read(Travelling& traveller);
   void filter_and_write(Travelling& traveller);
   /// In the order of frames: writes those between the key frame before and this one.
@@ -171,15 +169,6 @@ void FrameBaker::read(Travelling& traveller) {
       map = without_alpha(*map);
     const auto notes = fit_channels(*map, out_.file(traveller.what.frame), options_.write.image);
     traveller.told.insert(traveller.told.end(), notes.begin(), notes.end());
-    const SourceFaults faults = faults_of(*map);
-    if (faults.not_finite > 0)
-      throw Error(ErrorKind::bad_value,
-                  std::to_string(faults.not_finite) + " texels have NaN or infinite values");
-    if (faults.excessive > 0)
-      throw Error(ErrorKind::bad_value, std::to_string(faults.excessive) + " texels have values of over " +
-                                            number_text(kMaxRadiance) + ", too large to filter");
-    if (faults.negative > 0)
-      traveller.told.push_back("has negative values; they darken what is filtered, at most to 0");
     if (!map->parameterization.whole_world())
       traveller.told.push_back("doesn't show all of the sphere; the rest is black");
     if (shape_) check_shape(file, shape_of(*map), in_.file(work_.baked.front().frame), *shape_);
@@ -214,7 +203,8 @@ void FrameBaker::filter_and_write(Travelling& traveller) {
   const BakedFrame& what = traveller.what;
   {
     const Stopwatch watch(filter_seconds_);
-    Chain chain = plan_->run(*traveller.source, {nullptr, options_.monitor.cancelled});
+    Chain chain = filter_frame(*plan_, *traveller.source, in_.file(what.frame), traveller.told,
+                               {nullptr, options_.monitor.cancelled});
     traveller.source.reset();
     if (options_.factor != 1) {
       for (Map& level : chain.levels) scale(level, options_.factor);

@@ -7,7 +7,9 @@
 #include <system_error>
 
 #include "welkin/base/error.h"
+#include "welkin/base/number_text.h"
 #include "welkin/base/parallel.h"
+#include "welkin/prefilter/source_faults.h"
 
 namespace welkin::sequence {
 namespace {
@@ -23,6 +25,16 @@ fs::path place_of(const fs::path& file) {
   std::error_code error;
   const fs::path place = fs::weakly_canonical(file, error);
   return error ? fs::absolute(file).lexically_normal() : place;
+}
+
+/// Throws Error for values that can't be filtered.
+void check_values(const SourceFaults& faults) {
+  if (faults.not_finite > 0)
+    throw Error(ErrorKind::bad_value,
+                std::to_string(faults.not_finite) + " texels have NaN or infinite values");
+  if (faults.excessive > 0)
+    throw Error(ErrorKind::bad_value, std::to_string(faults.excessive) + " texels have values of over " +
+                                          number_text(kMaxRadiance) + ", too large to filter");
 }
 
 }  // namespace
@@ -102,6 +114,24 @@ void check_apart(const FrameNames& in, const FrameNames& out, const std::vector<
         throw Error(ErrorKind::bad_request, file.string(),
                     "would be written over a source: give the results names of their own");
     }
+  }
+}
+
+Chain filter_frame(const BakePlan& plan, const Map& source, const std::filesystem::path& file,
+                   std::vector<std::string>& told, const Monitor& monitor) {
+  SourceFaults faults;
+  try {
+    try {
+      Chain chain = plan.run(source, faults, monitor);
+      if (faults.negative > 0)
+        told.push_back("has negative values; they darken what is filtered, at most to 0");
+      return chain;
+    } catch (const Error&) {
+      check_values(faults);
+      throw;
+    }
+  } catch (const Error& error) {
+    throw in_file(file.string(), error);
   }
 }
 

@@ -29,4 +29,9 @@ void check_shape(const std::filesystem::path& file, const PrefilterShape& shape,
 void check_apart(const FrameNames& in, const FrameNames& out, const std::vector<int>& sources,
                  const std::vector<int>& frames, const sphere::AnyParameterization& target);
 
+/// A frame's chain. What is remarkable about its values goes to `told`. Throws what BakePlan::run does, and
+/// Error (bad_value) that counts them, about `file`.
+Chain filter_frame(const BakePlan& plan, const Map& source, const std::filesystem::path& file,
+                   std::vector<std::string>& told, const Monitor& monitor);
+
 }  // namespace welkin::sequence
