@@ -47,15 +47,30 @@ class Harmonics {
     if (power != nullptr) add_power(*power);
     if (std::any_of(levels_.begin(), levels_.end(), [](const auto& level) { return level.all; }))
       add_bright();
-    synthesise(part_of(monitor, 0.4, 0.85));
+    // Some levels at a time, whose orders take the memory of those before.
+    constexpr std::size_t kMost = std::size_t{4} << 20;
+    for (std::size_t first = 0, last = 0; first < levels_.size(); first = last) {
+      for (std::size_t size = 0; last < levels_.size() && (size == 0 || size < kMost); ++last)
+        size += orders_of(levels_[last]);
+      const auto at = [&](double part) {
+        return 0.4 + 0.6 * (static_cast<double>(first) + part * static_cast<double>(last - first)) /
+                         static_cast<double>(levels_.size());
+      };
+      synthesise(first, last, part_of(monitor, at(0), at(0.75)));
+      transform_back(first, last, part_of(monitor, at(0.75), at(1)));
+    }
     coefficients_ = Buffer();
     all_coefficients_ = Buffer();
-    transform_back(part_of(monitor, 0.85, 1));
   }
 
  private:
   std::size_t order_size(const Latitudes& latitudes) const {
     return static_cast<std::size_t>(latitudes.packs) * 2 * static_cast<std::size_t>(parts_) * 8;
+  }
+
+  /// Values of all of a level's orders.
+  std::size_t orders_of(const HarmonicLevel& level) const {
+    return order_size(level.latitudes) * static_cast<std::size_t>(level.degree + 1);
   }
 
   void transform_rows(const Monitor& monitor) {
@@ -146,16 +161,17 @@ class Harmonics {
     });
   }
 
-  void synthesise(const Monitor& monitor) {
+  /// Of levels [first, last).
+  void synthesise(std::size_t first, std::size_t last, const Monitor& monitor) {
     struct Item {
       std::size_t level;
       int m;
     };
     std::vector<Item> items;
     level_orders_.resize(levels_.size());
-    for (std::size_t i = 0; i < levels_.size(); ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       const HarmonicLevel& level = levels_[i];
-      level_orders_[i] = Buffer(order_size(level.latitudes) * static_cast<std::size_t>(level.degree + 1));
+      level_orders_[i] = Buffer(orders_of(level));
       for (int m = 0; m <= level.degree; ++m) items.push_back({i, m});
     }
     parallel_for(
@@ -188,7 +204,8 @@ class Harmonics {
     kernels().synthesise[channels_ - 1](level.latitudes, r, level.degree, scaled.data(), orders);
   }
 
-  void transform_back(const Monitor& monitor) {
+  /// And gives their orders' memory back.
+  void transform_back(std::size_t first, std::size_t last, const Monitor& monitor) {
     if (grids_.empty()) {
       for (const HarmonicLevel& level : levels_)
         grids_.emplace_back(1, level.grid.width, level.grid.height, points_.channels, PixelContents::unset);
@@ -198,7 +215,7 @@ class Harmonics {
       int pack;
     };
     std::vector<Item> items;
-    for (std::size_t i = 0; i < levels_.size(); ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       for (int pack = 0; pack < levels_[i].latitudes.packs; ++pack) items.push_back({i, pack});
     }
     parallel_for(
@@ -218,6 +235,7 @@ class Harmonics {
           }
         },
         monitor);
+    for (std::size_t i = first; i < last; ++i) level_orders_[i] = Buffer();
   }
 
   void store_rows(const HarmonicLevel& level, int pack, int c, const float* lanes, Level& grid) const {

@@ -52,8 +52,11 @@ WidenedLobe blurred(const lobe::AnyLobe& lobe, std::vector<double> zonal, double
   }
   const int degree = degree_of(zonal, 1e-9);
   zonal.resize(static_cast<std::size_t>(degree) + 1);
-  // The lobe's values, from its axis outward, dense where it is steep. Far out, where the series would be all
-  // rounding errors, by the Gaussian's first moment: w + σ²/2 ∇²w.
+  // The lobe's values, from its axis outward, dense where it is steep. Far out of a narrow lobe, where the
+  // series would be all rounding errors, by the Gaussian's first moment: w + σ²/2 ∇²w. That leaves cusps and
+  // edges as they are; wide lobes, which may have some there, have few degrees and values that don't get
+  // lost.
+  constexpr int kWideDegree = 768;
   std::vector<double> angles, near_nodes, degrees, values;
   constexpr int kPoints = 1500;
   const double sigma = std::sqrt(square), core = std::max(sigma, lobe.width()), scale = 1 / lobe.integral();
@@ -61,7 +64,8 @@ WidenedLobe blurred(const lobe::AnyLobe& lobe, std::vector<double> zonal, double
   for (int i = 0; i <= kPoints; ++i) {
     const double part = static_cast<double>(i) / kPoints;
     angles.push_back(std::min(kPi, core * std::sinh(part * std::asinh(kPi / core))));
-    if (angles.back() < 12 * core) near_nodes.push_back(lobe::s_of_angle(angles.back()));
+    if (degree <= kWideDegree || angles.back() < 12 * core)
+      near_nodes.push_back(lobe::s_of_angle(angles.back()));
   }
   const std::vector<double> near_values = series(zonal, near_nodes);
   for (std::size_t i = 0; i < angles.size(); ++i) {
