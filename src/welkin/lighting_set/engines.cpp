@@ -96,10 +96,10 @@ Engine three_js() {
       "src/renderers/shaders/ShaderChunk/cube_uv_reflection_fragment.glsl.js";
   engine.files = {
       specular_file("environment.ktx2", "scene.environment and scene.background", 256, 6, "three.js",
-                    "three.js", "half"),
+                    "three.js", "uastc-hdr", "zstd"),
       harmonics_file("harmonics.json", "for a LightProbe", "three.js", "three.js"),
   };
-  engine.limits.types = {"half"};
+  engine.limits.types = {"uastc-hdr"};
   engine.limits.types_reason =
       "KTX2Loader gives uncompressed cubes back as flat pictures and refuses BC6H cubes";
   engine.limits.fewest_levels = 4;

@@ -15,7 +15,7 @@ export async function draw({ size, views, maps, loadLight, show }) {
   const camera = new THREE.PerspectiveCamera((FIELD_OF_VIEW * 180) / Math.PI, 1, 1, 2 * EYE_DISTANCE);
   const pixels = new Float32Array(size * size * 4);
   for (const map of maps) {
-    await loadLight({ renderer, scene, folder: `/set/${map}` });
+    await loadLight({ renderer, scene, folder: `/set/${map}`, transcoder: "/node_modules/three/examples/jsm/libs/basis/" });
     for (const [number, view] of views.entries()) {
       const { positions, normals, indices } = ballMesh(size, view);
       const geometry = new THREE.BufferGeometry();
