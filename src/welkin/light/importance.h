@@ -62,7 +62,7 @@ struct ImportanceDraw {
 /// that f isn't.
 ///
 /// **Where pdf is 0**: texels of no luminance, what the map doesn't show, and at rims slivers thinner than
-/// 1e-5 of a texel. No such direction is drawn. Of a map without any light (all black, or all of one
+/// 1e-4 of a texel. No such direction is drawn. Of a map without any light (all black, or all of one
 /// radiance when compensated), every texel has the same density per solid angle: `is_uniform`.
 ///
 /// It is a class of its own, beside Sampler, because it holds tables of its own and none of the map's pixels,
