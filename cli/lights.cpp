@@ -132,9 +132,12 @@ ordered_json Lights::report(const LightSet& set, const Extraction* extraction, c
 void Lights::print(const LightSet& set, const Extraction* extraction, const Matrix3& world) const {
   print_lights(set, world);
   if (extraction == nullptr) return;
-  if (set.lights.empty())
+  if (set.lights.empty() && most == 0) {
+    fmt::print("no light was asked for\n");
+  } else if (set.lights.empty()) {
     fmt::print("no light is {:g} times as bright as the mean, {:.6g}\n",
                above.value_or(ExtractOptions{}.above), extraction->mean);
+  }
   for (std::size_t c = 0; c < set.channels.size(); ++c) {
     const double all = extraction->energy[c], rest = extraction->residual_energy[c];
     fmt::print("energy {}: {:.6g} of {:.6g} in lights, {:.6g} left\n", printable(set.channels[c]), all - rest,

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "command.h"
+#include "welkin/brdf/brdf.h"
 #include "welkin/brdf/engine_tables.h"
 #include "welkin/filter/resample.h"
 #include "welkin/lighting_set/engine.h"
@@ -52,6 +53,15 @@ void list_lobes() {
   fmt::print("{:<16} {}\n", "table,file=PATH", lobe::table_description());
 }
 
+void list_brdfs() {
+  for (const std::string& name : brdf::brdf_names())
+    fmt::print("{:<16} {}\n", name, brdf::AnyBrdf::make(name).description());
+  fmt::print("{:<16} {}\n", "table,file=PATH", "measured: a file of angles and values");
+  fmt::print("{:<16} {}\n", "merl,file=PATH", "measured: a file of the MERL database");
+  for (const std::string& name : brdf::brdf_names())
+    print_parameters(name, brdf::AnyBrdf::make(name).parameters());
+}
+
 void list_curves() {
   for (const std::string& name : lobe::roughness_curve_names()) {
     const auto curve = lobe::RoughnessCurve::from_name(name);
@@ -65,6 +75,7 @@ const std::map<std::string, std::function<void()>>& lists() {
       {"layouts", list_layouts},
       {"parameters", list_parameters},
       {"lobes", list_lobes},
+      {"brdfs", list_brdfs},
       {"curves", list_curves},
       {"conventions",
        [] {
@@ -114,7 +125,7 @@ void add_list(CLI::App& app) {
   for (const auto& [name, print] : lists()) names.push_back(name);
   command
       ->add_option("WHAT", *what,
-                   "conventions, curves, engines, filters, formats, layouts, lobes, luts, maps, methods, "
+                   "brdfs, conventions, curves, engines, filters, formats, layouts, lobes, luts, maps, methods, "
                    "parameterizations, parameters")
       ->capture_default_str();
   command->callback([what, names] {

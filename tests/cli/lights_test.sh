@@ -23,6 +23,9 @@ grep -q KHR_lights_punctual sun.gltf || fail 'no light in the glTF'
 must lights rest.exr
 grep -q '^no light is 10 times as bright as the mean' "$work/out" || fail "something is found in the residual: $(cat "$work/out")"
 
+must lights sun.exr --most 0
+grep -q '^no light was asked for$' "$work/out" || fail "--most 0: $(cat "$work/out")"
+
 # Every format, by the extension and by name.
 for extension in json js gltf rs py pbrt xml usda; do must lights sun.exr -q "sun.$extension"; done
 for name in json three.js gltf bevy blender pbrt mitsuba usd; do must lights sun.exr -q --for "$name"; done

@@ -5,7 +5,7 @@
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
 must synth axes card.exr --size 16
-for what in conventions curves filters formats layouts lobes luts maps methods parameterizations parameters; do matches . list $what; done
+for what in brdfs conventions curves filters formats layouts lobes luts maps methods parameterizations parameters; do matches . list $what; done
 for command in info convert sample importance diff synth plot lut list help; do
   matches "^Usage: welkin $command" help $command
   matches "^Usage: welkin $command" $command --help
@@ -15,6 +15,7 @@ matches '^Usage: welkin plot density' help plot density
 matches '^Usage: welkin plot lobe' help plot lobe
 matches '^Usage: welkin plot fresnel' help plot fresnel
 for name in $("$welkin" list lobes | cut -d ' ' -f 1 | grep -v '^table,'); do must plot lobe --lobe "$name"; done
+matches '^ggx,f0=' list brdfs
 matches '^welkin [0-9]+\.[0-9]+\.[0-9]+$' --version
 for format in $("$welkin" list formats | grep -v 'read only'); do must convert card.exr "listed.$format"; done
 
