@@ -264,6 +264,26 @@ void write_pngs(const fs::path& folder) {
   save(folder / "chrm_zero.png", with(2, chunk("gAMA", words({0})) + chunk("cHRM", std::string(32, '\0'))));
 }
 
+/// Of readers of text and of measurements.
+void write_table_seeds(const fs::path& root) {
+  std::string grid = "light,view,around,value\n# sr^-1\n";
+  for (const char* light : {"0", "45", "90"}) {
+    for (const char* view : {"0", "60"}) {
+      for (const char* around : {"0", "180"})
+        grid += std::string(light) + "," + view + " " + around + ",\t0.25e0\n";
+    }
+  }
+  save(root / "brdf_table" / "grid", grid);
+  save(root / "lobe_table" / "csv", "angle,weight\n0,1\n30,.5\n90,0\n");
+  save(root / "lobe_table" / "blanks", "\xEF\xBB\xBF# degrees\r\n0 2e3\r\n5\t1\r\n180 0\r\n");
+  save(root / "merl" / "ones", "r" + std::string("\0\0\0\0\0\0\xF0\x3F", 8));
+  save(root / "merl" / "unmeasured", "r" + std::string("\0\0\0\0\0\0\xF0\xBF\0\0\0\0\0\0\xE0\x3F", 16));
+  save(root / "merl" / "short", std::string("\x5A\0\0\0\x5A\0\0\0\xB4\0\0\0\0", 13));
+  save(root / "coefficients" / "json",
+       R"({"order":1,"basis":"orthonormal","coefficients":[[1,1,1],[0,0.5,0],[0,0,0.25],[0.1,0,0]]})");
+  save(root / "coefficients" / "csv", "l,m,R,G,B\n0,0,1,1,1\n1,-1,0,0,0\n1,0,.5,.5,.5\n1,1,0,0,0\n");
+}
+
 }  // namespace
 
 void write_metadata_seeds(const fs::path& root) {
@@ -273,6 +293,7 @@ void write_metadata_seeds(const fs::path& root) {
                                       {"gain_map", gain_maps()}}) {
     for (const auto& [name, bytes] : seeds) save(root / folder / name, bytes);
   }
+  write_table_seeds(root);
   write_jpegs(root / "jpeg");
   write_pngs(root / "png");
   // The other half of the gain map's fuzzer: pictures one after the other.
