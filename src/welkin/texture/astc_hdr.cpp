@@ -13,7 +13,7 @@ using namespace texture;
 uastc::Search search_of(TextureQuality quality) {
   switch (quality) {
     case TextureQuality::fast:
-      return {1, false, 0, 1, 1, 0};
+      return {1, false, 0, 2, 1, 0};
     case TextureQuality::normal:
       return {1, false, 1, 2, 2, 1};
     default:

@@ -146,6 +146,8 @@ class Encoder : BlockFit<Arch> {
     return least < std::numeric_limits<float>::infinity();
   }
 
+  static float within_limit(float end) { return std::clamp(end, 0.0f, static_cast<float>(kLargestEnd)); }
+
   /// `fits()`, again with lower ends as long as what they are rounded to is above the limit.
   template <class Fits>
   static bool below_limit(float (*ends)[3], const Fits& fits) {
@@ -170,7 +172,7 @@ class Encoder : BlockFit<Arch> {
       } else {
         ends[0][c] = ends[1][c] = (ax + bx) / std::max(aa + 2 * ab + bb, 1e-30f);
       }
-      for (auto& end : ends) end[c] = std::max(end[c] * (1.0f / 16), 0.0f);
+      for (auto& end : ends) end[c] = within_limit(end[c] * (1.0f / 16));
     }
     const auto largest = [&](int e) { return std::max({ends[e][0], ends[e][1], ends[e][2]}); };
     if (largest(0) > largest(1)) {
@@ -199,7 +201,7 @@ class Encoder : BlockFit<Arch> {
     const float scale = variance > 0 ? std::max(-covariance / variance, 0.0f) : 0.0f;
     float ends[2][3];
     for (int c = 0; c < 3; ++c) {
-      ends[1][c] = std::max((mean[c] + scale * mean_u[c]) * (1.0f / 16), 0.0f);
+      ends[1][c] = within_limit((mean[c] + scale * mean_u[c]) * (1.0f / 16));
       ends[0][c] = std::max(ends[1][c] - scale * (1.0f / 16), 0.0f);
     }
     return below_limit(ends, [&] {
