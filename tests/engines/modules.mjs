@@ -2,6 +2,7 @@
 
 export const MODULES = {
   babylon: { head: '<script src="/node_modules/babylonjs/babylon.js"></script>' },
+  "model-viewer": { imports: { "@google/model-viewer": "/node_modules/@google/model-viewer/dist/model-viewer.min.js" } },
   playcanvas: { imports: { playcanvas: "/node_modules/playcanvas/build/playcanvas.mjs" } },
   three: {
     imports: { three: "/node_modules/three/build/three.module.js", "three/addons/": "/node_modules/three/examples/jsm/" },

@@ -10,6 +10,8 @@
 
 const slope = (r) => Math.min(1, r * r + 0.0005);  // Babylon's convertRoughnessToAverageSlope
 
+const FILAMENT = { level: (r, last) => last * r * (2 - r), least: 0.089, toNormal: (r) => r ** 4 };
+
 export const READS = {
   // src/renderers/shaders/ShaderChunk/: envmap_physical_pars_fragment (getIBLRadiance, getIBLIrradiance), lights_physical_fragment,
   // lights_physical_pars_fragment (computeMultiscattering with a white f0: multiple = 1 − single)
@@ -24,12 +26,8 @@ export const READS = {
 
   // shaders/src/: surface_light_indirect.fs (perceptualRoughnessToLod, getSpecularDominantDirection, diffuseIrradiance); a white metal's
   // compensation 1/E takes E back. In a browser the least roughness is that of mobile devices (surface_material.fs).
-  filament: {
-    level: (r, last) => last * r * (2 - r),
-    least: 0.089,
-    toNormal: (r) => r ** 4,
-    diffuseLevel: true,
-  },
+  filament: { ...FILAMENT, diffuseLevel: true },
+  "filament, harmonics": { ...FILAMENT, diffuseDegree: 2 },
 
   // pbrIBLFunctions (getLodFromAlphaG, with CubeTexture's lodGenerationScale), pbrBlockReflection (MIX_IBL_RADIANCE_WITH_IRRADIANCE); a
   // white metal's compensation takes E back. Diffuse light is a polynomial of degree 2 that the loader makes of level 0.

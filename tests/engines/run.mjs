@@ -1,10 +1,21 @@
 // Loads what Welkin bakes into the engines themselves, has them light a mirror, a rough and a diffuse ball, and compares every pixel with
-// what Welkin says. Prints a table, and leaves what was drawn in FOLDER/work; fails if an error exceeds its limit.
+// what Welkin says. Prints a table, and leaves what was drawn in FOLDER/work; fails if an error exceeds its limit, an engine sees the test
+// card turned, or docs/engines.md shows something else.
 //
 //     node run.mjs WELKIN FOLDER [--all | NAME…]    the command; the folder with node_modules; sets of sets.json. By default those that Welkin
 //                                                   bakes, with --all also those that engines filter themselves, which have no limit
+//
+// A set of sets.json:
+//     module, page    the engine's name in modules.mjs, and the script of pages/ that draws with it
+//     commands        make the set's files of sky.exr, in the folder where both are
+//     snippet         the module that a user writes to load them: loadLight({ folder, … }), where … is what the engine has
+//     chain           what the files hold, as Welkin is asked for it: the levels
+//     reads           how the engine reads them, in reads.mjs
+//     leftHanded      the scene is left-handed
+//     own             the engine filters the sky itself
+//     limits, because others than the usual
 
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { Browser } from "./browser.mjs";
@@ -23,6 +34,7 @@ for (const word of words) if (word !== "--all" && !sets[word]) throw new Error(`
 const SIZE = 96;
 const VIEWS = [[0.3, 0.25, 1], [-1, -0.45, -0.2], [0.25, 0.9, -0.6]];
 const MAPS = ["axes", "room"];
+const BRIGHTNESS = { axes: 1, room: 0.25 };  // of the pictures to look at
 // Of the root of the mean square. The lights' own levels are half floats, which round by 0.03 %; GPUs interpolate with 8 bits.
 const LIMITS = { mirror: 0.01, rough: 0.02, diffuse: 0.01 };
 const SECONDS = 180, SECONDS_TO_FILTER = 900;  // on a busy machine without a graphics card
@@ -35,24 +47,26 @@ const browser = new Browser();
 
 const fileName = (name) => name.replace(/[^a-z0-9]+/g, "-");
 
-// The set's files, by its own commands, in a folder for this map.
+// The set's files, by its own commands, in a folder for this map, which is called sky.exr there.
 function bakeSet(name, map) {
-  const set = `${fileName(name)}/${map}`, wanted = sets[name];
-  mkdirSync(join(work, set), { recursive: true });
-  if (wanted.for) return welkin.make(`welkin bake ${map}.exr ${set}/ --for ${wanted.for}`);
-  for (const [file, line] of Object.entries(wanted.files)) {
-    welkin.make(line.replace("sky.exr", `${map}.exr`).replace(` ${file}`, ` ${set}/${file}`));
+  const set = join(work, fileName(name), map);
+  mkdirSync(set, { recursive: true });
+  symlinkSync(join("..", "..", `${map}.exr`), join(set, "sky.exr"));
+  for (const line of sets[name].commands) welkin.make(line, set);
+}
+
+// The page for users shows what is tested.
+function checkPage() {
+  const page = readFileSync(join(here, "..", "..", "docs", "engines.md"), "utf8");
+  for (const [name, { commands, snippet }] of Object.entries(sets)) {
+    for (const text of [...commands.map((line) => `    ${line}`), snippet.join("\n")]) {
+      if (!page.includes(`${text}\n`)) wrong.push(`docs/engines.md does not show this of ${name}:\n${text}`);
+    }
   }
 }
 
-// The code that loads it, as its page shows it.
-function snippetOf(name) {
-  if (!sets[name].for) return sets[name].snippet.join("\n");
-  return JSON.parse(readFileSync(join(work, fileName(name), MAPS[0], "manifest.json"), "utf8")).snippet;
-}
-
 function draw(name) {
-  const { module, page, leftHanded, own } = sets[name], { head, imports } = MODULES[module];
+  const { module, page, leftHanded, own, snippet } = sets[name], { head, imports } = MODULES[module];
   const html = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">${head ?? ""}
 <script type="importmap">${JSON.stringify({ imports: imports ?? {} })}</script>
 <body><script type="module" src="/pages/page.js"></script>`;
@@ -61,7 +75,7 @@ function draw(name) {
     texts: {
       "/": { type: "text/html", text: html },
       "/task": { type: "application/json", text: JSON.stringify({ page, leftHanded, size: SIZE, views: VIEWS, maps: MAPS }) },
-      "/snippet.js": { type: "text/javascript", text: snippetOf(name) },
+      "/snippet.js": { type: "text/javascript", text: snippet.join("\n") },
     },
     seconds: own ? SECONDS_TO_FILTER : SECONDS,
   });
@@ -75,7 +89,7 @@ function bakeChain(levels, map) {
 }
 
 const percent = (x) => (x === null ? "–" : (100 * x).toFixed(2));
-const wrong = [];
+const wrong = [], rows = [];
 
 function compare(name, map, pictures) {
   const set = sets[name], chain = bakeChain(set.chain, map);
@@ -83,7 +97,7 @@ function compare(name, map, pictures) {
     const { pixels, r, read, exact } = expected({ welkin, map, chain, engine: set.reads, ball, size: SIZE, views: VIEWS });
     const values = shown(pictures, map, ball, pixels);
     const error = relativeError(values, read), exactError = exact && relativeError(values, exact);
-    console.log(`${name.padEnd(28)} ${map.padEnd(8)} ${ball.padEnd(8)} ${percent(error).padStart(7)} ${percent(exactError).padStart(12)}`);
+    console.log(`${name.padEnd(32)} ${map.padEnd(8)} ${ball.padEnd(8)} ${percent(error).padStart(7)} ${percent(exactError).padStart(12)}`);
     const limit = set.limits?.[ball] ?? LIMITS[ball];
     if (!set.own && !(error <= limit)) wrong.push(`${name}, ${map}: the ${ball} ball is off by ${percent(error)} %, more than ${100 * limit} %`);
     // The test card tells every direction from every other.
@@ -94,19 +108,24 @@ function compare(name, map, pictures) {
 }
 
 try {
+  checkPage();
   for (const map of MAPS) welkin.make(`welkin synth ${map} ${map}.exr --size 1024`);
-  console.log(`relative RMSE, %             map      ball     as read   exact lobe`);
+  console.log(`relative RMSE, %                 map      ball     as read   exact lobe`);
   for (const name of names) {
     try {
       for (const map of MAPS) bakeSet(name, map);
       const { pictures, said } = await draw(name), before = wrong.length;
       for (const map of MAPS) compare(name, map, pictures);
       if (wrong.length > before) wrong.push(...said.map((line) => `  the page said: ${line}`));
-      writeFileSync(join(work, `${fileName(name)}.png`), sheet(pictures, MAPS, Object.keys(LIMITS), VIEWS.length, SIZE));
+      const picture = (map, ball, view) => ({ map, picture: pictures.get(`${map}-${ball}-${view}`) });
+      const all = MAPS.map((map) => Object.keys(LIMITS).flatMap((ball) => VIEWS.map((_, view) => picture(map, ball, view))));
+      writeFileSync(join(work, `${fileName(name)}.png`), sheet(all, SIZE, BRIGHTNESS));
+      if (!name.includes(",")) rows.push([picture("axes", "mirror", 2), ...Object.keys(LIMITS).map((ball) => picture("room", ball, 2))]);
     } catch (error) {
       wrong.push(`${name}: ${error.message}`);
     }
   }
+  if (rows.length) writeFileSync(join(work, "balls.png"), sheet(rows, SIZE, BRIGHTNESS));
 } finally {
   browser.close();
 }

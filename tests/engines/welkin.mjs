@@ -10,16 +10,16 @@ export class Welkin {
     this.tables = new Map();
   }
 
-  run(words, input) {
-    return execFileSync(this.program, words, { cwd: this.folder, input, encoding: "utf8", maxBuffer: 1 << 30,
+  run(words, { input, folder = this.folder } = {}) {
+    return execFileSync(this.program, words, { cwd: folder, input, encoding: "utf8", maxBuffer: 1 << 30,
       stdio: ["pipe", "pipe", "inherit"] });
   }
 
-  // Makes a file of the folder, by a command as a user types it: `welkin bake sky.exr out.ktx2 --size 64`.
-  make(line) {
+  // Makes files of a folder, by a command as a user types it: `welkin bake sky.exr out.ktx2 --size 64`.
+  make(line, folder = this.folder) {
     const [name, ...words] = line.split(" ");
     if (name !== "welkin") throw new Error(`not a command of welkin: ${line}`);
-    this.run(words);
+    this.run(words, { folder });
   }
 
   makeOnce(file, line) {
@@ -29,7 +29,7 @@ export class Welkin {
   // Radiance along directions, three numbers each.
   sample(map, directions, level = 0) {
     const input = directions.map((d) => d.join(" ")).join("\n") + "\n";
-    const text = this.run(["sample", map, "--level", String(level)], input);
+    const text = this.run(["sample", map, "--level", String(level)], { input });
     const values = Float64Array.from(text.trim().split(/\s+/), Number);
     if (values.length !== 3 * directions.length) throw new Error(`${map}: ${values.length} numbers for ${directions.length} directions`);
     return values;

@@ -14,6 +14,7 @@ export async function draw({ size, views, maps, leftHanded, loadLight, show }) {
   canvas.width = canvas.height = size;
   const engine = new BABYLON.Engine(canvas, false), scene = new BABYLON.Scene(engine);
   scene.useRightHandedSystem = !leftHanded;
+  scene.clearColor = new BABYLON.Color4(0, 0, 0, 1);
   scene.imageProcessingConfiguration.applyByPostProcess = true;  // so that materials show linear values
   scene.imageProcessingConfiguration.skipFinalColorClamp = true;
   const own = leftHanded ? mirrored : (numbers) => numbers;

@@ -1,7 +1,5 @@
 import { EYE_DISTANCE, FIELD_OF_VIEW, ballMesh, cameraAxes, upright } from "/pages/balls.js";
-import { MATERIALS, glb } from "/pages/glb.js";
-
-const DIFFUSE = { pbrMetallicRoughness: { metallicFactor: 0 }, extensions: { KHR_materials_specular: { specularFactor: 0 } } };
+import { MATERIALS, ONLY_DIFFUSE, glb } from "/pages/glb.js";
 
 // Cesium's frame is a texture of half floats, which is mapped to colours afterwards: it is read when the ball has just been drawn.
 function watchDraws(gl, size) {
@@ -42,8 +40,8 @@ export async function draw({ size, views, maps, loadLight, show }) {
         destination: Cesium.Matrix4.multiplyByPoint(modelMatrix, local(eye), new Cesium.Cartesian3()),
         orientation: { direction: turned(back.map((x) => -x)), up: turned(up) },
       });
-      for (const [ball, material] of Object.entries({ ...MATERIALS, diffuse: DIFFUSE })) {
-        const gltf = glb(mesh, material, ball === "diffuse" ? ["KHR_materials_specular"] : []);
+      for (const [ball, material] of Object.entries({ ...MATERIALS, diffuse: ONLY_DIFFUSE })) {
+        const gltf = glb(mesh, material);
         const model = await Cesium.Model.fromGltfAsync({ gltf, modelMatrix, imageBasedLighting });
         scene.primitives.add(model);
         Object.assign(seen, { count: mesh.indices.length, pixels: null });

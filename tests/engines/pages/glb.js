@@ -9,14 +9,14 @@ const padded = (bytes, filler) => {
 };
 
 // mesh: of ballMesh(); material: a glTF material.
-export function glb({ positions, normals, indices }, material, extensions = []) {
+export function glb({ positions, normals, indices }, material) {
   const parts = [positions, normals, indices].map((array) => padded(new Uint8Array(array.buffer), 0));
   const offsets = [0, parts[0].length, parts[0].length + parts[1].length];
   const bounds = [0, 1, 2].map((k) => positions.reduce(([low, high], x, i) => (i % 3 === k ? [Math.min(low, x), Math.max(high, x)] : [low, high]),
     [Infinity, -Infinity]));
   const json = {
     asset: { version: "2.0" },
-    extensionsUsed: extensions.length ? extensions : undefined,
+    extensionsUsed: material.extensions && Object.keys(material.extensions),
     scene: 0,
     scenes: [{ nodes: [0] }],
     nodes: [{ mesh: 0 }],
@@ -46,3 +46,6 @@ export const MATERIALS = {
   rough: { pbrMetallicRoughness: { metallicFactor: 1, roughnessFactor: 0.5 } },
   diffuse: { pbrMetallicRoughness: { metallicFactor: 0, roughnessFactor: 1 } },
 };
+
+// Diffuse without reflection, where KHR_materials_specular is known.
+export const ONLY_DIFFUSE = { pbrMetallicRoughness: { metallicFactor: 0 }, extensions: { KHR_materials_specular: { specularFactor: 0 } } };
