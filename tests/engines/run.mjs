@@ -44,6 +44,12 @@ rmSync(work, { recursive: true, force: true });
 mkdirSync(work, { recursive: true });
 const welkin = new Welkin(resolve(program), work);
 const browser = new Browser();
+for (const signal of ["SIGINT", "SIGTERM"]) {
+  process.once(signal, () => {
+    browser.close();
+    process.exit(1);
+  });
+}
 
 const fileName = (name) => name.replace(/[^a-z0-9]+/g, "-");
 
