@@ -27,16 +27,21 @@ function shade(reads, ball, { pixels, r }, welkin, light, diffuse) {
   return light.map((L, i) => reads.metal(albedo(pixels[Math.floor(i / 3)].cosine, r), L, diffuse[i], r));
 }
 
-// Radiance that an engine finds at a level of a chain, a fraction between two; from lat-longs into which it has resampled the levels, if
-// it does that.
-function readChain(welkin, chain, reads, directions, level) {
+// One of the lat-longs that an engine looks up.
+function latlong({ welkin, map, chain, reads, level }) {
+  const size = `--to latlong --size ${reads.latlong(level)} --quiet`;
+  const name = `${reads.ofSky ? map : chain.file}-latlong-${level}.exr`;
+  if (!reads.ofSky) welkin.makeOnce(name, `welkin convert ${chain.file} ${name} --level ${level} --filter bilinear ${size}`);
+  else if (level === 0) welkin.makeOnce(name, `welkin convert ${map}.exr ${name} ${size}`);
+  else welkin.makeOnce(name, `welkin bake ${map}.exr ${name} --lobe ggx,roughness=${level / 5} ${size}`);
+  return name;
+}
+
+// Radiance that an engine finds at a level, a fraction between two.
+function readLevel({ welkin, map, chain, reads, directions, level }) {
   if (!reads.latlong) return welkin.sample(chain.file, directions, level);
   const low = Math.floor(level), t = level - low;
-  const [a, b] = [low, Math.ceil(level)].map((k) => {
-    const name = `${chain.file}-${k}.exr`;
-    welkin.makeOnce(name, `welkin convert ${chain.file} ${name} --level ${k} --to latlong --size ${reads.latlong(k)} --filter bilinear --quiet`);
-    return welkin.sample(name, directions);
-  });
+  const [a, b] = [low, Math.ceil(level)].map((k) => welkin.sample(latlong({ welkin, map, chain, reads, level: k }), directions));
   return a.map((x, i) => (1 - t) * x + t * b[i]);
 }
 
@@ -58,7 +63,7 @@ export function expected({ welkin, map, chain, engine, ball, size, views }) {
     welkin.makeOnce(name, `welkin sh ${map}.exr ${name} --order ${reads.diffuseDegree} --of lambert --size 512x256 --quiet`);
     return welkin.sample(name, normals);
   };
-  const readLight = () => (ball === "diffuse" ? [] : readChain(welkin, chain, reads, directions, reads.level(look.r, last)));
+  const readLight = () => (ball === "diffuse" ? [] : readLevel({ welkin, map, chain, reads, directions, level: reads.level(look.r, last) }));
   const exactLight = () => (ball === "diffuse" ? [] : welkin.sample(lobe(`${map}-${look.r}.ktx2`, `ggx,roughness=${look.r}`), directions));
   return {
     ...look,

@@ -5,12 +5,21 @@
 //   toNormal(r)      how far the reflected direction is moved to the normal
 //   metal(E, L, D, r)   what a white metal shows: E is the albedo of single scattering, L the reflected light, D the diffuse
 //   albedo           which of Welkin's tables holds E
+//   latlong(level)   the size of lat-longs into which the engine resamples the levels
+//   ofSky            these are made of the sky itself
 //   diffuseLevel     diffuse light is the last level
 //   diffuseDegree    diffuse light is spherical harmonics of this degree; with neither, it is all there is
 
 const slope = (r) => Math.min(1, r * r + 0.0005);  // Babylon's convertRoughnessToAverageSlope
 
 const FILAMENT = { level: (r, last) => last * r * (2 - r), least: 0.089, toNormal: (r) => r ** 4 };
+
+const PLAYCANVAS = {
+  level: (r) => 5 * r,
+  least: 0,
+  toNormal: () => 0,
+  latlong: (level) => `${(512 >> level) - 2}x${(256 >> level) - 2}`,
+};
 
 export const READS = {
   // src/renderers/shaders/ShaderChunk/: envmap_physical_pars_fragment (getIBLRadiance, getIBLIrradiance), lights_physical_fragment,
@@ -41,12 +50,8 @@ export const READS = {
 
   // src/scene/shader-lib/glsl/chunks/lit/frag/: reflectionEnv (calcReflection), ambient, fresnelSchlick; src/scene/graphics/env-lighting.js
   // resamples the cube into an atlas, and makes the diffuse light of level 0.
-  playcanvas: {
-    level: (r, last) => last * r,
-    least: 0,
-    toNormal: () => 0,
-    latlong: (level) => `${(512 >> level) - 2}x${(256 >> level) - 2}`,
-  },
+  playcanvas: PLAYCANVAS,
+  "playcanvas, atlas": { ...PLAYCANVAS, ofSky: true },
 
   // ImageBasedLightingStageFS (textureIBL, of which a white metal's multiple scattering is 1 − single), BrdfLutGeneratorFS
   cesium: {
