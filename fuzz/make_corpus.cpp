@@ -35,6 +35,7 @@ struct Seeds {
   bool parts = false;
   bool levels = false;
   bool cubes = false;
+  bool whole_cubes = false;  ///< all levels of a cube, and nothing else
 };
 
 const std::vector<Seeds>& all_seeds() {
@@ -63,6 +64,7 @@ const std::vector<Seeds>& all_seeds() {
       {"ktx", "ktx", {rgb9e5, r11g11b10, bc6h}, {"none"}, {1, 3}, {95}, false, true, true},
       {"dds", "dds", {half, float32}, {"none"}, {1, 3, 4}, {95}, false, true, true},
       {"dds", "dds", {rgb9e5, r11g11b10, bc6h}, {"none"}, {1, 3}, {95}, false, true, true},
+      {"env", "env", {uint8}, {"zip"}, {1, 3}, {95}, false, false, false, true},
       {"pfm", "pfm", {float32}, {"none"}, {1, 3}},
       {"png", "png", {uint8, uint16}, {"zip", "none"}, {1, 2, 3, 4}},
       {"jpeg", "jpg", {uint8}, {""}, {1, 3}, {30, 95}},
@@ -123,6 +125,18 @@ void write_seeds(const fs::path& root, const Seeds& seeds) {
             for (int face = 0; face < 6; ++face) {
               parts[static_cast<std::size_t>(face)].image = square.view();
               parts[static_cast<std::size_t>(face)].face = face;
+            }
+          }
+          const Image half = test_picture(2, 2, channels), last = test_picture(1, 1, channels);
+          if (seeds.whole_cubes) {
+            parts.clear();
+            for (int level = 0; level < 3; ++level) {
+              for (int face = 0; face < 6; ++face) {
+                parts.push_back(part);
+                parts.back().image = level == 0 ? square.view() : level == 1 ? half.view() : last.view();
+                parts.back().level = level;
+                parts.back().face = face;
+              }
             }
           }
           io::WriteOptions options;

@@ -59,8 +59,13 @@ void encode_channel(const float* in, int step, int count, std::byte* stored, std
 
 }  // namespace
 
+double WriteReport::relative_rmse() const {
+  return squares > 0 ? std::sqrt(error_squares / squares) : 0;
+}
+
 WriteReport operator+(const WriteReport& a, const WriteReport& b) {
-  return {a.above + b.above, a.below + b.below, a.not_finite + b.not_finite};
+  return {a.above + b.above, a.below + b.below, a.not_finite + b.not_finite, a.squares + b.squares,
+          a.error_squares + b.error_squares};
 }
 
 PixelEncoder::PixelEncoder(PixelType type, std::vector<int> order, std::vector<bool> srgb,

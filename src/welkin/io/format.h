@@ -49,6 +49,7 @@ Format hdr_format();
 Format ktx2_format();
 Format ktx1_format();
 Format dds_format();
+Format env_format();
 Format pfm_format();
 Format png_format();
 Format jpeg_format();

@@ -6,6 +6,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/listed.h"
+#include "welkin/io/encoded_light.h"
 #include "welkin/io/format.h"
 #include "welkin/io/interpret.h"
 #include "welkin/io/output_file.h"
@@ -71,8 +72,8 @@ std::string gibibytes(long double bytes) {
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = {
-      exr_format(),  hdr_format(),  ktx2_format(), ktx1_format(), dds_format(),  pfm_format(), png_format(),
-      jpeg_format(), tiff_format(), webp_format(), jxl_format(),  avif_format(), heif_format()};
+      exr_format(),  hdr_format(),  ktx2_format(), ktx1_format(), dds_format(),  pfm_format(),  png_format(),
+      jpeg_format(), tiff_format(), webp_format(), jxl_format(),  avif_format(), heif_format(), env_format()};
   return all;
 }
 
@@ -102,7 +103,7 @@ std::unique_ptr<Reader> open(std::span<const std::byte> bytes, std::string name,
   for (const Format& format : formats()) {
     if (!format.matches(bytes)) continue;
     try {
-      return interpret(format.open({bytes, name, options}), options);
+      return interpret(decode_light(format.open({bytes, name, options}), options), options);
     } catch (const Error& error) {
       if (!error.file().empty()) throw;
       throw in_file(name, error);

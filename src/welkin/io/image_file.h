@@ -16,6 +16,7 @@
 #include "welkin/image/image.h"
 #include "welkin/io/byte_sink.h"
 #include "welkin/io/capabilities.h"
+#include "welkin/io/light_encoding.h"
 #include "welkin/texture/texture_quality.h"
 
 /// @file
@@ -113,6 +114,9 @@ struct ReadOptions {
   bool keep_primaries = false;
   /// Images whose decoded floats would need more bytes are refused: Error (too_large).
   std::uint64_t max_bytes = std::uint64_t{32} << 30;
+  /// How radiance lies in the file's R G B A of 8 bits; none: as its text metadata say, in files of ours,
+  /// else not at all. Error (mismatch) for other pictures.
+  std::optional<LightEncoding> encoding = {};
 };
 
 /// An open image file. Headers are parsed and checked (against ReadOptions::max_bytes and against the file's
@@ -178,13 +182,23 @@ struct WriteOptions {
   std::map<std::string, std::string> attributes = {};       ///< text metadata, in formats that carry it
   std::optional<std::string> envmap = {};                   ///< EXR's standard `envmap` attribute
   std::optional<Panorama> panorama = {};                    ///< XMP's GPano, in formats that carry XMP
+  /// How radiance is laid into R G B A of 8 bits: PNG of R G B alone.
+  std::optional<LightEncoding> encoding = {};
+  /// Of `.env`: Babylon.js's polynomial of the diffuse light, x y z xx yy zz yz zx xy, each of R, G and B, in
+  /// the coordinates of its look-up; 27 numbers, or none (harmonics/env_irradiance.h).
+  std::vector<double> irradiance = {};
 };
 
 /// What writing lost, for the caller to report.
-struct WriteReport {
+struct WELKIN_API WriteReport {
   std::uint64_t above = 0;       ///< values over the format's largest, clipped
   std::uint64_t below = 0;       ///< negative values in a format that has none, clipped to 0
   std::uint64_t not_finite = 0;  ///< NaN or infinity in a format that has neither
+  double squares = 0;            ///< of a LightEncoding: the sum of all values' squares
+  double error_squares = 0;      ///< and of their errors'
+
+  /// Of a LightEncoding: the root mean square of the errors over that of the values; 0 of other files.
+  double relative_rmse() const;
 };
 
 /// Writes pictures to a file: to a temporary one beside `path`, then renamed, so that on any failure nothing

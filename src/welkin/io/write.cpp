@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "welkin/base/error.h"
+#include "welkin/io/encode_pixels.h"
+#include "welkin/io/encoded_light.h"
 #include "welkin/io/format.h"
 #include "welkin/io/output_file.h"
 #include "welkin/io/part_rows.h"
@@ -21,6 +23,7 @@ const Format& format_named(std::string_view name) {
 /// Throws for what the format can't hold of a picture.
 void check_picture(const Format& chosen, const WritePart& part, const WriteOptions& options) {
   const Capabilities& format = chosen.capabilities;
+  if (options.encoding) check_encoded(part, options, format);
   PixelType type = options.type.value_or(format.types.front());
   if (chosen.check != nullptr) {
     chosen.check(options);
@@ -55,14 +58,19 @@ void check_parts(const Format& format, std::span<const WritePart> parts, const W
 WriteReport write_parts(const Format& format, ByteSink& sink, std::vector<WritePart>& parts,
                         const WriteOptions& options) {
   std::vector<Image> drawn;
-  if (!format.draws_rows) drawn = draw_parts(parts);
-  return format.write(sink, parts, options);
-}
-
-void add(WriteReport& total, const WriteReport& report) {
-  total.above += report.above;
-  total.below += report.below;
-  total.not_finite += report.not_finite;
+  if (!format.draws_rows || options.encoding) drawn = draw_parts(parts);
+  if (!options.encoding) return format.write(sink, parts, options);
+  std::vector<Image> encoded;
+  WriteReport report;
+  for (WritePart& part : parts) {
+    encoded.push_back(encode_light(part, *options.encoding, report));
+    part.image = encoded.back().view();
+    part.channels = {"R", "G", "B", "A"};
+  }
+  WriteOptions as_bytes = options;
+  as_bytes.type = PixelType::uint8;
+  as_bytes.attributes[kEncodingKey] = options.encoding->text();
+  return report + format.write(sink, parts, as_bytes);
 }
 
 /// Runs one step of writing a file; what goes wrong names the file.
@@ -96,7 +104,7 @@ WriteReport write_set(std::size_t count, const std::function<WriteFile(std::size
       const Format& format = format_named(capabilities_for(file.path).format);
       check_parts(format, file.parts, options);
       written.emplace_back(file.path, std::make_unique<OutputFile>(file.path));
-      add(total, write_parts(format, *written.back().second, file.parts, options));
+      total = total + write_parts(format, *written.back().second, file.parts, options);
     });
   }
   for (const auto& each : written) {

@@ -35,7 +35,8 @@ Map without_channel(const Map& map, std::size_t dropped) {
 
 /// Whether files of the format can have alpha beside these values.
 bool holds_alpha(const io::Capabilities& format, const io::WriteOptions& options) {
-  return format.channels != io::Channels::rgb && !io::is_packed(options.type.value_or(format.types.front()));
+  return format.channels != io::Channels::rgb && !options.encoding &&
+         !io::is_packed(options.type.value_or(format.types.front()));
 }
 
 }  // namespace

@@ -107,7 +107,8 @@ WriteReport write_png(ByteSink& file, std::span<const WritePart> parts, const Wr
   const PixelType type = pixel_type(options, types, "PNG");
   const int level = compression(options, known, "PNG") == "none" ? 0 : kZipLevel;
   const std::vector<int> order = channel_order(part, Alpha::allowed, "PNG");
-  const Colour colour = colour_for(type, options.colour);
+  // Of an encoding the bytes are as they are, and no chunk says how they are to be shown.
+  const Colour colour = options.encoding ? Colour::linear : colour_for(type, options.colour);
   std::vector<png_text> texts = texts_of(options.attributes);
   std::string xmp = options.panorama ? xmp_of(*options.panorama) : std::string();
   if (!xmp.empty()) {
@@ -126,7 +127,7 @@ WriteReport write_png(ByteSink& file, std::span<const WritePart> parts, const Wr
   const std::size_t kind = order.size() - 1;
   const bool alpha = order.size() % 2 == 0;
   const PixelEncoder pixels(type, order, srgb_channels(names[kind], colour),
-                            alpha ? std::optional(order.back()) : std::nullopt);
+                            alpha && !options.encoding ? std::optional(order.back()) : std::nullopt);
   const int depth = static_cast<int>(8 * size_of(type));
 
   Encoder encoder(file);
@@ -139,7 +140,7 @@ WriteReport write_png(ByteSink& file, std::span<const WritePart> parts, const Wr
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (colour == Colour::srgb) {
       png_set_sRGB_gAMA_and_cHRM(encoder.png(), encoder.info(), PNG_sRGB_INTENT_RELATIVE);
-    } else {
+    } else if (!options.encoding) {
       png_set_gAMA_fixed(encoder.png(), encoder.info(), PNG_FP_1);
     }
     if (!texts.empty())
