@@ -92,6 +92,7 @@
 #include "welkin/prefilter/change_curve.h"
 #include "welkin/prefilter/lobe_sum_bake.h"
 #include "welkin/prefilter/paraboloid_convolution.h"
+#include "welkin/prefilter/playcanvas_atlas.h"
 #include "welkin/prefilter/prefilter.h"
 #include "welkin/prefilter/roughness_levels.h"
 #include "welkin/prefilter/source_faults.h"
