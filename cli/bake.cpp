@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "bake_atlas.h"
 #include "bake_frames.h"
 #include "bake_levels.h"
 #include "bake_report.h"
@@ -18,6 +19,7 @@
 #include "progress.h"
 #include "sanitize_flags.h"
 #include "welkin/base/number_text.h"
+#include "welkin/harmonics/env_irradiance.h"
 #include "welkin/light/extract.h"
 #include "welkin/map/adjust.h"
 #include "welkin/prefilter/source_faults.h"
@@ -28,7 +30,7 @@ namespace {
 
 struct Bake {
   std::string in, out, tolerance = "0.1%", normalisation = "average", filter = "auto", format;
-  std::string rotation, convention, verify;
+  std::string rotation, convention, verify, atlas;
   BakeLevels made;
   BakeViews views;
   BakeSet set;
@@ -182,15 +184,17 @@ void Bake::run() {
     throw UsageError("--extract-sun: is not told with --brdf; bake what `welkin lights --residual` leaves");
   if (of_views && numbered) throw UsageError("--brdf: is for one map, not for frames");
   if (of_views) views.prepare(made, out);
+  if (!atlas.empty())
+    return bake_atlas({in, out, write_options, prefilter, turn, std::exp2(exposure)}, made, read, repair);
   made.parse(out, write);
   BakeOptions& options = made.options;
   options.prefilter = prefilter;
   options.prefilter.borders = write.border > 0;
   // Channels that were named are all wanted.
   options.keep_alpha = !read.channels.empty();
+  if (!convention.empty()) parse_option("--convention", [&] { return convention_from_name(convention); });
+  fit_to_convention(out, convention, *made.shape);
   if (!convention.empty()) {
-    parse_option("--convention", [&] { return convention_from_name(convention); });
-    fit_to_convention(out, convention, *made.shape);
     options.target = made.shape->parameterization;
     options.prefilter.orientation = orientation_for(convention_from_name(convention), options.target);
   }
@@ -236,6 +240,10 @@ void Bake::run() {
   }
   if (exposure != 0) {
     for (Map& level : chain.levels) scale(level, static_cast<float>(std::exp2(exposure)));
+  }
+  if (is_env(out)) {
+    write_options.image.irradiance = harmonics::env_irradiance(source, options.prefilter.orientation);
+    for (double& each : write_options.image.irradiance) each *= std::exp2(exposure);
   }
   report_losses(out, write_chain(out, chain, made.shape->layout, write_options));
   report.write_seconds = clock.lap();
@@ -302,6 +310,12 @@ void add_bake(CLI::App& app) {
       "Rotate the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
   command->add_option("--convention,--to-convention", bake->convention,
                       "World of the output: three.js, blender… (`welkin list conventions`)");
+  command
+      ->add_option(
+          "--atlas", bake->atlas,
+          "playcanvas: that engine's picture of 512×512 with all levels and the diffuse light, a PNG in "
+          "--encoding rgbp")
+      ->check(CLI::IsMember({"playcanvas"}));
   command->add_flag("--extract-sun", bake->extract_sun,
                     "Take the strongest light out first, and tell it, to be a light of its own that casts "
                     "shadows; see `lights`");

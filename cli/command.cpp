@@ -127,6 +127,9 @@ void ReadFlags::add(CLI::App& command) {
                   "Colours of other primaries than BT.709's: convert them, or keep them as they are")
       ->check(CLI::IsMember({"convert", "keep"}))
       ->capture_default_str();
+  command.add_option("--from-encoding", encoding,
+                     "How radiance lies in the input's R G B A of 8 bits: rgbm,range=6, rgbd, rgbp, rgbe. "
+                     "Default: as files of ours say, else not at all");
   command.add_option("--channels", channels,
                      "Channels to read, by name: R,G,B. Default: R,G,B and A of the layer, or Y, or the "
                      "first three");
@@ -188,6 +191,9 @@ ReadMapOptions ReadFlags::parse() const {
   if (part) options.part = static_cast<std::size_t>(*part);
   options.image.colour = parse_colour("--colour", colour);
   options.image.keep_primaries = primaries == "keep";
+  if (!encoding.empty())
+    options.image.encoding =
+        parse_option("--from-encoding", [&] { return io::LightEncoding::from_name(encoding); });
   if (!convention.empty())
     parse_option("--from-convention", [&] { return convention_from_name(convention); });
   return options;
@@ -243,6 +249,8 @@ void WriteFlags::add(CLI::App& command) {
       "--type", type,
       "Stored values: uint8, uint16, uint32, half, float; rgb9e5, r11g11b10, bc6h, uastc-hdr in textures. "
       "Default: the format's best");
+  command.add_option("--encoding,--to-encoding", encoding,
+                     "Radiance in R G B A of 8 bits, of PNG: rgbm,range=6, rgbd, rgbp, rgbe");
   command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")
       ->capture_default_str();
   command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");
@@ -287,6 +295,9 @@ WriteMapOptions WriteFlags::parse() const {
   options.image.colour = parse_colour("--to-colour", colour);
   options.image.compression = compression;
   parse_quality(quality, options.image);
+  if (!encoding.empty())
+    options.image.encoding =
+        parse_option("--encoding", [&] { return io::LightEncoding::from_name(encoding); });
   if (!type.empty()) {
     options.image.type = parse_option("--type", [&] { return io::pixel_type_from_name(type); });
   }
@@ -327,58 +338,6 @@ void check_extension(const std::string& path) {
   }
 }
 
-void fit_to_convention(const std::string& path, const std::string& convention, MapShape& shape) {
-  if (convention.empty()) return;
-  const auto fitted = parameterization_for(convention_from_name(convention), shape.parameterization);
-  if (fitted == shape.parameterization) return;
-  print_warning(
-      path, fmt::format("is {}, as {} reads a {}", fitted.name(), convention, shape.parameterization.name()));
-  shape.parameterization = fitted;
-}
-
-void check_output(const std::string& path, const MapShape& shape, const WriteFlags& flags) {
-  const Layout& layout = shape.layout;
-  if (!flags.faces.empty()) {
-    parse_option("--to-faces", [&] { return with_faces(layout, shape.parameterization, flags.faces); });
-  }
-  check_extension(path);
-  try {
-    check_face_pattern(path, layout);
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
-  for (const std::filesystem::path& file : files_of(path, shape.parameterization)) {
-    try {
-      const io::OutputFile unwritten(file);
-    } catch (const Error& error) {
-      throw in_file(file.string(), error);
-    }
-  }
-}
-
-void check_output_size(ChartSize size, const MapShape& shape, const WriteFlags& flags) {
-  parse_option("--size", [&] {
-    check_turns(
-        flags.faces.empty() ? shape.layout : with_faces(shape.layout, shape.parameterization, flags.faces),
-        size);
-  });
-  if (flags.border > size.width || flags.border > size.height) {
-    throw UsageError(fmt::format("--border: {} texels are more than a chart of {}×{} has", flags.border,
-                                 size.width, size.height));
-  }
-}
-
-void check_output_levels(const std::string& path, const MapShape& shape, ChartSize size, int levels,
-                         const WriteFlags& flags) {
-  try {
-    check_chain(path, shape, size, levels, flags.parse());
-  } catch (const UsageError&) {
-    throw;
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
-}
-
 int levels_of(const MapFileInfo& info) {
   return std::max(1, static_cast<int>(info.levels.size()));
 }
@@ -386,15 +345,6 @@ int levels_of(const MapFileInfo& info) {
 void fit_channels_to(Map& map, const std::string& path, const WriteMapOptions& options, bool told) {
   const std::vector<std::string> notes = fit_channels(map, path, options.image);
   for (std::size_t i = 0; i < notes.size() && !told; ++i) print_warning(path, notes[i]);
-}
-
-void report_losses(const std::string& path, const io::WriteReport& report) {
-  const auto warn = [&](std::uint64_t count, std::string_view what) {
-    if (count > 0) print_message(fmt::format("welkin: {}: {} values {}\n", path, count, what));
-  };
-  warn(report.above, "were above what the file can hold, and clipped");
-  warn(report.below, "were negative, and are 0 in the file");
-  warn(report.not_finite, "were not finite, and are not in the file");
 }
 
 }  // namespace welkin::cli

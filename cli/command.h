@@ -68,7 +68,7 @@ Matrix3 parse_rotation(std::string_view option, const std::string& text);
 struct ReadFlags {
   int border = 0;
   std::string from, faces, convention, colour = "auto", primaries = "convert", channels, layer;
-  std::string eye, stereo;
+  std::string eye, stereo, encoding;
   std::optional<int> part;
   std::optional<int> level;
   bool pixels = true;  ///< whether opening may read some, to find out how faces join
@@ -90,7 +90,7 @@ struct ReadFlags {
 /// Options of every command that writes a map.
 struct WriteFlags {
   std::string faces, type, colour = "auto", compression;
-  std::string quality;
+  std::string quality, encoding;
   int border = 0;
 
   void add(CLI::App& command);
@@ -108,7 +108,10 @@ std::string input_path(const std::string& in);
 
 /// UsageError for a name whose extension is that of no format which is written.
 void check_extension(const std::string& path);
-/// The shape of a map in a file of this convention, as far as it differs: said on stderr.
+/// Whether a file of this name is Babylon.js's `.env`, whose diffuse light is written beside its levels.
+bool is_env(const std::string& path);
+/// The shape of a map in a file of this convention, as far as it differs: said on stderr. Of no convention,
+/// says where one is expected.
 void fit_to_convention(const std::string& path, const std::string& convention, MapShape& shape);
 /// Finds out before any work whether `path` can be written in this shape: UsageError for a name that doesn't
 /// fit (extension, `%s`, faces), Error for a folder that doesn't take the file.
