@@ -13,9 +13,11 @@ namespace welkin {
 /// A rectangle of the atlas: a whole lat-long of (width − 2)×(height − 2) texels, with a border of one texel
 /// that goes on around it.
 struct AtlasRectangle {
-  int x = 0, y = 0;           ///< top left corner, texels
-  int width = 0, height = 0;  ///< with the border
-  lobe::AnyLobe lobe;         ///< what it is filtered with
+  int x = 0;           ///< of the left edge, texels
+  int y = 0;           ///< of the top edge, texels
+  int width = 0;       ///< with the border
+  int height = 0;      ///< with the border
+  lobe::AnyLobe lobe;  ///< what it is filtered with
 };
 
 /// The rectangles of the 512×512 atlas: six of the mirror, each half as large as the one before; GGX of
