@@ -7,7 +7,11 @@
 namespace welkin::cli {
 
 bool is_env(const std::string& path) {
-  return io::capabilities_for(path).format == "env";
+  try {
+    return io::capabilities_for(path).format == "env";
+  } catch (const Error&) {
+    return false;  // which is told where the output is checked
+  }
 }
 
 void fit_to_convention(const std::string& path, const std::string& convention, MapShape& shape) {
