@@ -124,9 +124,10 @@ void add_list(CLI::App& app) {
   std::vector<std::string> names;
   for (const auto& [name, print] : lists()) names.push_back(name);
   command
-      ->add_option("WHAT", *what,
-                   "brdfs, conventions, curves, engines, filters, formats, layouts, lobes, luts, maps, methods, "
-                   "parameterizations, parameters")
+      ->add_option(
+          "WHAT", *what,
+          "brdfs, conventions, curves, engines, filters, formats, layouts, lobes, luts, maps, methods, "
+          "parameterizations, parameters")
       ->capture_default_str();
   command->callback([what, names] {
     const auto found = lists().find(*what);

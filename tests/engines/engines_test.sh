@@ -32,4 +32,5 @@ if ! cmp -s -- "$here/package-lock.json" installed-lock.json; then
   cp -- package-lock.json installed-lock.json
 fi
 
+(($# > 0)) || node "$here/viewer.mjs" "$welkin" .
 exec node "$here/run.mjs" "$welkin" . "$@"

@@ -7,6 +7,7 @@
 //
 // A set of sets.json:
 //     module, page    the engine's name in modules.mjs, and the script of pages/ that draws with it
+//     for             the engine of `bake --for`, which makes the files, and whose manifest has the snippet; or
 //     commands        make the set's files of sky.exr, in the folder where both are
 //     snippet         the module that a user writes to load them: loadLight({ folder, … }), where … is what the engine has
 //     chain           what the files hold, as Welkin is asked for it: the levels
@@ -58,21 +59,29 @@ function bakeSet(name, map) {
   const set = join(work, fileName(name), map);
   mkdirSync(set, { recursive: true });
   symlinkSync(join("..", "..", `${map}.exr`), join(set, "sky.exr"));
-  for (const line of sets[name].commands) welkin.make(line, set);
+  for (const line of commandsOf(name)) welkin.make(line, set);
+}
+
+function commandsOf(name) {
+  return sets[name].for ? [`welkin bake sky.exr ./ --for ${sets[name].for}`] : sets[name].commands;
+}
+
+// Of a set of `bake --for`, as its manifest has it, which is there once it is baked.
+function snippetOf(name) {
+  if (!sets[name].for) return sets[name].snippet.join("\n");
+  return JSON.parse(readFileSync(join(work, fileName(name), MAPS[0], "manifest.json"), "utf8")).snippet.trimEnd();
 }
 
 // The page for users shows what is tested.
-function checkPage() {
-  const page = readFileSync(join(here, "..", "..", "docs", "engines.md"), "utf8");
-  for (const [name, { commands, snippet }] of Object.entries(sets)) {
-    for (const text of [...commands.map((line) => `    ${line}`), snippet.join("\n")]) {
-      if (!page.includes(`${text}\n`)) wrong.push(`docs/engines.md does not show this of ${name}:\n${text}`);
-    }
+const page = readFileSync(join(here, "..", "..", "docs", "engines.md"), "utf8");
+function checkPage(name) {
+  for (const text of [...commandsOf(name).map((line) => `    ${line}`), snippetOf(name)]) {
+    if (!page.includes(`${text}\n`)) wrong.push(`docs/engines.md does not show this of ${name}:\n${text}`);
   }
 }
 
 function draw(name) {
-  const { module, page, leftHanded, own, snippet } = sets[name], { head, imports } = MODULES[module];
+  const { module, page, leftHanded, own } = sets[name], { head, imports } = MODULES[module];
   const html = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">${head ?? ""}
 <script type="importmap">${JSON.stringify({ imports: imports ?? {} })}</script>
 <body><script type="module" src="/pages/page.js"></script>`;
@@ -81,7 +90,7 @@ function draw(name) {
     texts: {
       "/": { type: "text/html", text: html },
       "/task": { type: "application/json", text: JSON.stringify({ page, leftHanded, size: SIZE, views: VIEWS, maps: MAPS }) },
-      "/snippet.js": { type: "text/javascript", text: snippet.join("\n") },
+      "/snippet.js": { type: "text/javascript", text: snippetOf(name) },
     },
     seconds: own ? SECONDS_TO_FILTER : SECONDS,
   });
@@ -114,12 +123,12 @@ function compare(name, map, pictures) {
 }
 
 try {
-  checkPage();
   for (const map of MAPS) welkin.make(`welkin synth ${map} ${map}.exr --size 1024`);
   console.log(`relative RMSE, %                 map      ball     as read   exact lobe`);
   for (const name of names) {
     try {
       for (const map of MAPS) bakeSet(name, map);
+      checkPage(name);
       const { pictures, said } = await draw(name), before = wrong.length;
       for (const map of MAPS) compare(name, map, pictures);
       if (wrong.length > before) wrong.push(...said.map((line) => `  the page said: ${line}`));

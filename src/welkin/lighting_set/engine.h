@@ -14,13 +14,14 @@ namespace welkin {
 enum class SetContent {
   specular,    ///< a chain of GGX over roughness
   sheen,       ///< a chain of Charlie's lobe over roughness
+  atlas,       ///< PlayCanvas's picture of chains and diffuse light
   diffuse,     ///< the world averaged with Lambert's lobe: irradiance / π
   background,  ///< the world itself
   harmonics,   ///< spherical harmonics of radiance to order 2, in a basis
   table,       ///< the integrals of a BRDF over n·v and roughness
 };
 
-/// `specular`, `sheen`, `diffuse`, `background`, `harmonics`, `table`.
+/// `specular`, `sheen`, `atlas`, `diffuse`, `background`, `harmonics`, `table`.
 WELKIN_API std::string_view name_of(SetContent content);
 
 /// One file of a set. Members that its content has no use for are empty or 0.

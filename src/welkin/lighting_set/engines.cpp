@@ -168,20 +168,17 @@ Engine playcanvas() {
   Engine engine;
   engine.name = "playcanvas";
   engine.title = "PlayCanvas 2.23";
-  engine.summary = "a DDS cube of half floats that becomes its atlas, and ambient harmonics";
+  engine.summary = "a DDS of half floats that is its atlas of reflections and diffuse light";
   engine.run = true;
   engine.source = "src/scene/graphics/env-lighting.js, src/framework/parsers/texture/dds.js";
-  engine.files = {
-      specular_file("environment.dds", "reflections", 128, 6, "playcanvas", "playcanvas", "half"),
-      harmonics_file("harmonics.json", "for scene.ambientSH", "playcanvas", "playcanvas"),
-  };
-  engine.limits.types = {"half"};
-  engine.limits.types_reason = "its DDS reader takes cubes of half floats";
-  engine.limits.fewest_levels = 6;
-  engine.limits.most_levels = 6;
-  engine.limits.levels_reason = "its atlas has six levels";
-  engine.limits.power_of_two = true;
-  engine.limits.width_reason = "its atlas has faces of a power of two";
+  SetFile file;
+  file.content = atlas;
+  file.name = "environment.dds";
+  file.about = "scene.envAtlas";
+  file.convention = "playcanvas";
+  file.type = "half";
+  engine.files = {std::move(file)};
+  engine.limits.levels_reason = "its atlas has sizes, levels and roughnesses of its own";
   engine.snippet = lighting_set::snippet("playcanvas.js");
   return engine;
 }
@@ -193,8 +190,8 @@ Engine babylon(bool right_handed) {
   engine.summary = "one .env file, which holds the harmonics too";
   engine.run = true;
   engine.source = "packages/dev/core/src/Misc/environmentTextureTools.ts";
-  engine.files = {specular_file("environment.dds", "reflections, background and diffuse light", 256, 0,
-                                "babylon", right_handed ? "babylon-right-handed" : "babylon", "half")};
+  engine.files = {specular_file("environment.env", "reflections, background and diffuse light", 256, 0,
+                                "babylon", right_handed ? "babylon-right-handed" : "babylon", "")};
   // The curve begins at roughness 1/16, below which the engine reads level 0 too.
   engine.files[0].mirror_level0 = true;
   engine.limits.all_levels = true;
@@ -304,6 +301,8 @@ std::string_view name_of(SetContent content) {
       return "specular";
     case sheen:
       return "sheen";
+    case atlas:
+      return "atlas";
     case diffuse:
       return "diffuse";
     case background:

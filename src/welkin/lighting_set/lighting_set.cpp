@@ -12,12 +12,14 @@
 #include "welkin/filter/resample.h"
 #include "welkin/harmonics/coefficients_file.h"
 #include "welkin/harmonics/dering.h"
+#include "welkin/harmonics/env_irradiance.h"
 #include "welkin/harmonics/error_of.h"
 #include "welkin/harmonics/project.h"
 #include "welkin/harmonics/zonal.h"
 #include "welkin/lighting_set/encoded_files.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map_file/chain_file.h"
+#include "welkin/prefilter/playcanvas_atlas.h"
 #include "welkin/sphere/convention.h"
 
 namespace welkin {
@@ -92,6 +94,9 @@ class SetMaker {
         break;
       case SetContent::background:
         store_chain(made, background(file));
+        break;
+      case SetContent::atlas:
+        store_atlas(made);
         break;
       default:
         bake_and_store(made);
@@ -208,8 +213,12 @@ class SetMaker {
   void store_chain(MadeFile& made, Chain chain) {
     Clock clock;
     io::MemorySink sink;
-    made.losses =
-        write_chain(sink, format_of(made.made), chain, write_options(made.made.type, made.made.compression));
+    WriteMapOptions write = write_options(made.made.type, made.made.compression);
+    if (format_of(made.made) == "env") {
+      write.image.irradiance = harmonics::env_irradiance(source_, chain.levels.front().orientation);
+      for (double& value : write.image.irradiance) value *= options_.exposure;
+    }
+    made.losses = write_chain(sink, format_of(made.made), chain, write);
     made.bytes = sink.take();
     made.encoding_seconds = clock.lap();
     Chain again = read_again(made.bytes, made.made, chain.levels.front().orientation);
@@ -275,6 +284,30 @@ class SetMaker {
     }
     std::stable_sort(set_->formats.begin(), set_->formats.end(),
                      [](const FormatChoice& a, const FormatChoice& b) { return a.bytes > b.bytes; });
+  }
+
+  void store_atlas(MadeFile& made) const {
+    PrefilterOptions prefilter;
+    prefilter.tolerance = options_.tolerance;
+    prefilter.mirror_filter = options_.mirror_filter;
+    Image atlas = playcanvas_atlas(source_, prefilter, options_.monitor);
+    float* const values = atlas.at(0, 0);
+    std::transform(values, values + std::ptrdiff_t{3} * atlas.width() * atlas.height(), values,
+                   [&](float value) { return value * static_cast<float>(options_.exposure); });
+    Clock clock;
+    const io::WritePart part{"", atlas.view(), default_channel_names(3)};
+    io::WriteOptions options;
+    options.type = io::pixel_type_from_name(made.made.type);
+    io::MemorySink sink;
+    made.losses = io::write(sink, format_of(made.made), {&part, 1}, options);
+    made.bytes = sink.take();
+    made.encoding_seconds = clock.lap();
+    Image again(atlas.width(), atlas.height(), 3);
+    constexpr int kAll[] = {0, 1, 2};
+    io::open(made.bytes, made.made.name)->read(0, kAll, again.view());
+    made.levels.push_back(
+        {{atlas.width(), atlas.height()}, {}, {}, stored_error(atlas.view(), again.view()), {}});
+    made.made.to = "atlas";
   }
 
   void store_harmonics(MadeFile& made) const {

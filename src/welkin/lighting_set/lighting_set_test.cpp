@@ -68,7 +68,7 @@ TEST_P(EveryEngine, ItsFilesReadBackAndAreNamedInTheManifestAndOnThePage) {
     EXPECT_NE(manifest.find("\"" + file.made.name + "\""), std::string::npos) << file.made.name;
     EXPECT_NE(page.find("<code>" + file.made.name + "</code>"), std::string::npos) << file.made.name;
     EXPECT_GT(file.bytes.size(), 100u) << file.made.name;
-    if (file.levels.empty()) continue;
+    if (file.levels.empty() || file.made.content == SetContent::atlas) continue;
     ReadMapOptions options;
     options.shape = file.made.to;
     options.join_faces = false;
@@ -81,7 +81,8 @@ TEST_P(EveryEngine, ItsFilesReadBackAndAreNamedInTheManifestAndOnThePage) {
   EXPECT_FALSE(set.specular.levels.empty());
   EXPECT_EQ(page.find("a<b.hdr"), std::string::npos);
   EXPECT_NE(page.find("a&lt;b.hdr"), std::string::npos);
-  EXPECT_EQ(page.find("://"), std::string::npos) << "the page needs a network";
+  EXPECT_EQ(page.find("http:"), std::string::npos) << "the page needs a network";
+  EXPECT_EQ(page.find("https:"), std::string::npos) << "the page needs a network";
 }
 
 std::vector<std::string> names() {

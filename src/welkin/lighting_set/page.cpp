@@ -207,7 +207,7 @@ with a second bounce, and the harmonics for diffuse light.</figcaption>
     const bool is_stored = specular != set_.files.end();
     html_ += "<h2>The specular chain</h2>\n";
     if (!is_stored)
-      html_ += "<p>The engine makes its own from the panorama; this is what it should come to.</p>\n";
+      html_ += "<p>The set's files hold it in another way; this is what it should come to.</p>\n";
     html_ += "<div class=\"cards\">\n";
     for (std::size_t i = 0; i < chain.levels.size(); ++i) {
       const Map& level = chain.levels[i];

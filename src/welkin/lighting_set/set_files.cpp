@@ -97,7 +97,9 @@ std::vector<SetFile> set_files(const Engine& engine, const SetOptions& options) 
   const bool changes_chain =
       options.width || options.levels || options.curve || options.type || options.most_bytes > 0;
   if (changes_chain && !has_chain)
-    refuse(engine, "a chain", "it filters a panorama itself, so there is no chain to change");
+    refuse(
+        engine, "another chain",
+        engine.limits.levels_reason.empty() ? "it filters a panorama itself" : engine.limits.levels_reason);
   return files;
 }
 

@@ -46,21 +46,26 @@ StoredError& StoredError::operator+=(const StoredError& other) {
   return *this;
 }
 
-StoredError stored_error(const Map& given, const Map& stored) {
-  if (given.charts() != stored.charts() || given.width() != stored.width() ||
-      given.height() != stored.height() || given.channels() != stored.channels())
-    throw Error(ErrorKind::mismatch, "maps of other sizes have no error of storing");
-  const int height = given.height();
-  const std::size_t row =
-      static_cast<std::size_t>(given.width()) * static_cast<std::size_t>(given.channels());
+StoredError stored_error(ImageView<const float> given, ImageView<const float> stored) {
+  if (given.width != stored.width || given.height != stored.height || given.channels != stored.channels)
+    throw Error(ErrorKind::mismatch, "pictures of other sizes have no error of storing");
+  const std::size_t row = static_cast<std::size_t>(given.width) * static_cast<std::size_t>(given.channels);
   // Added up in order, so that threads change nothing.
-  std::vector<StoredError> rows(static_cast<std::size_t>(given.charts()) * static_cast<std::size_t>(height));
-  parallel_for(given.charts() * height, [&](int i) {
-    rows[static_cast<std::size_t>(i)] = error_of_row(given.level.chart(i / height).row(i % height),
-                                                     stored.level.chart(i / height).row(i % height), row);
+  std::vector<StoredError> rows(static_cast<std::size_t>(given.height));
+  parallel_for(given.height, [&](int y) {
+    rows[static_cast<std::size_t>(y)] = error_of_row(given.row(y), stored.row(y), row);
   });
   StoredError all;
   for (const StoredError& each : rows) all += each;
+  return all;
+}
+
+StoredError stored_error(const Map& given, const Map& stored) {
+  if (given.charts() != stored.charts())
+    throw Error(ErrorKind::mismatch, "maps of other charts have no error of storing");
+  StoredError all;
+  for (int chart = 0; chart < given.charts(); ++chart)
+    all += stored_error(given.level.chart(chart), stored.level.chart(chart));
   return all;
 }
 

@@ -25,7 +25,10 @@ struct WELKIN_API StoredError {
   StoredError& operator+=(const StoredError& other);
 };
 
-/// Of two maps of one size. Throws Error (mismatch) for other sizes or channels.
+/// Of two maps, or pictures, of one size. Throws Error (mismatch) for other sizes or channels.
+/// @{
 WELKIN_API StoredError stored_error(const Map& given, const Map& stored);
+WELKIN_API StoredError stored_error(ImageView<const float> given, ImageView<const float> stored);
+/// @}
 
 }  // namespace welkin

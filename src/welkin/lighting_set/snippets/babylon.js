@@ -1,3 +1,3 @@
 export async function loadLight({ scene, folder }) {
-  scene.environmentTexture = BABYLON.CubeTexture.CreateFromPrefilteredData(`${folder}/environment.dds`, scene);
+  scene.environmentTexture = BABYLON.CubeTexture.CreateFromPrefilteredData(`${folder}/environment.env`, scene);
 }

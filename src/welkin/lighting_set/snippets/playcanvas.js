@@ -1,10 +1,11 @@
 export async function loadLight({ pc, app, folder }) {
-  const cube = new pc.Asset("light", "cubemap", { url: `${folder}/environment.dds` });
-  app.assets.add(cube);
+  const sampling = { mipmaps: false, minfilter: "linear", magfilter: "linear", addressu: "clamp", addressv: "clamp" };
+  const atlas = new pc.Asset("light", "texture", { url: `${folder}/environment.dds` }, sampling);
+  app.assets.add(atlas);
   await new Promise((resolve, reject) => {
-    cube.once("error", reject);
-    cube.ready(resolve);
-    app.assets.load(cube);
+    atlas.once("error", reject);
+    atlas.ready(resolve);
+    app.assets.load(atlas);
   });
-  app.scene.prefilteredCubemaps = cube.resources.slice(1);
+  app.scene.envAtlas = atlas.resource;
 }
