@@ -128,11 +128,10 @@ SanitizeOptions Bake::repairs_for(const std::string& path, const io::WriteOption
 
 void Bake::run_set() {
   read.parse();
-  const std::string type = format.empty() ? write.type : format;
   const WriteMapOptions write_options = parse_write();
   const PrefilterOptions prefilter = parse_options();
   if (!convention.empty()) parse_option("--convention", [&] { return convention_from_name(convention); });
-  SetOptions options = set.parse(out, made, type, convention, write_options);
+  SetOptions options = set.parse(out, made, write.type, convention, write_options);
   options.tolerance = prefilter.tolerance;
   options.mirror_filter = prefilter.mirror_filter;
   options.exposure = std::exp2(exposure);

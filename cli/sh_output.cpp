@@ -19,7 +19,7 @@ void ShOutput::add(CLI::App& command) {
       "standard output");
   std::string names;
   for (const Basis& each : bases()) names += (names.empty() ? "" : ", ") + each.name;
-  command.add_option("--basis", basis, names)->capture_default_str();
+  command.add_option("--basis", basis, names + ". Default: orthonormal, or filament for Filament's text");
   command.add_option("--convention,--to-convention", convention,
                      "World in which they are looked up: unity, unreal… Default: the basis's own");
   command.add_option("--to", to, "Of a map: its parameterization, NAME[:LAYOUT][,PARAMETER=VALUE]")
@@ -38,6 +38,11 @@ bool ShOutput::is_text() const {
 
 void ShOutput::check() {
   if (is_stdout() && format.empty()) format = "json";
+  if (basis.empty()) {
+    const std::string extension = is_stdout() ? format : out.substr(out.rfind('.') + 1);
+    basis = is_text() && coefficients_format(extension) == CoefficientsFormat::filament ? "filament"
+                                                                                        : "orthonormal";
+  }
   const Basis& chosen = parse_option("--basis", [&]() -> const Basis& { return chosen_basis(); });
   if (!convention.empty()) parse_option("--convention", [&] { return convention_from_name(convention); });
   if (!is_stdout() && !format.empty())

@@ -9,7 +9,7 @@ namespace welkin::cli {
 
 /// Options of what `sh` writes: coefficients, or a map of them.
 struct ShOutput {
-  std::string out = "-", format, basis = "orthonormal", convention, to = "latlong", size = "256";
+  std::string out = "-", format, basis, convention, to = "latlong", size = "256";
   WriteFlags write;
 
   void add(CLI::App& command);
@@ -17,7 +17,9 @@ struct ShOutput {
   void check();
   bool is_text() const;
   bool is_stdout() const { return out == "-"; }
-  const harmonics::Basis& chosen_basis() const { return harmonics::basis_from_name(basis); }
+  const harmonics::Basis& chosen_basis() const {
+    return harmonics::basis_from_name(basis);
+  }  ///< after check()
   /// Harmonics of the native world. `report` is a member for JSON on standard output; may be empty.
   void write_harmonics(const harmonics::SphericalHarmonics& stored, const std::string& of,
                        const std::string& report) const;

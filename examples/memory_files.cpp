@@ -10,9 +10,9 @@ int main() try {
   const auto latlong = welkin::sphere::AnyParameterization::make("latlong");
   const welkin::Map sky = welkin::render(welkin::synth::make("sky"), latlong, 64, 32);
 
-  // Every format that can be written, if it holds values over 1.
+  // Every format that can be written, if it holds values over 1 as they are.
   for (const welkin::io::Capabilities& format : welkin::io::all_capabilities()) {
-    if (!format.writable || !format.hdr) continue;
+    if (!format.writable || !format.hdr || !format.lossless) continue;
     welkin::io::MemorySink sink;
     welkin::write_map(sink, format.format, sky);
     const std::vector<std::byte> bytes = sink.take();

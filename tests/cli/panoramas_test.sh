@@ -37,11 +37,11 @@ refuses 2 'is not a number in -90…90' info crop.exr --from latlong,top=100
 
 # A part of the world stays that part where nothing else is asked for, also where it is turned.
 must convert card.exr turned.exr --to latlong,left=-45,right=45 --size 64 --convention blender
-must convert turned.exr copy.exr
+warns 'copy.exr: is in the convention blender, as turned.exr is' convert turned.exr copy.exr
 matches '"orientation"' info copy.exr --header --json
 must diff turned.exr copy.exr --fail-above 1e-5
 near "the copy along its middle" "$(sample_along copy.exr 1,0,0)" "$(sample_along card.exr 1,0,0)" 0.02
-warns 'is turned as the input is, which the file cannot say' convert turned.exr copy.pfm
+warns 'is in the convention blender, as turned.exr is, which the file cannot say' convert turned.exr copy.pfm
 
 # VR180 is the middle half of a lat-long.
 must convert card.exr vr180.exr --to vr180 --size 256

@@ -22,7 +22,7 @@ equal 'its bytes' "$(jq -r '.files[] | [.file, .bytes] | @tsv' out/manifest.json
 matches '^  parameterization +cube:layers' info out/specular.ktx2 --header
 matches 'bc6h' info out/specular.ktx2 --header
 equal 'levels' "$(jq '.files[0].levels | length' out/manifest.json)" 6
-equal 'formats' "$(jq -r '[.formats[].type] | sort | join(" ")' out/manifest.json)" 'bc6h half rgb9e5'
+equal 'formats' "$(jq -r '[.formats[].type] | sort | join(" ")' out/manifest.json)" 'bc6h half rgb9e5 uastc-hdr'
 checks=$((checks + 1))
 grep -q '<canvas' out/index.html && ! grep -qE '(src|href)="?(http|/)' out/index.html || fail 'the page needs other files'
 
@@ -55,7 +55,7 @@ refuses 1 'faces can.t be smaller' bake room.exr tiny/ --max-bytes 10
 refuses 2 '--for: .*filament' bake room.exr x/ --for filamint
 refuses 2 '--for: Filament .* its shader reads five levels' bake room.exr x/ --for filament --levels 9
 refuses 2 '--for: Filament .* takes half and float' bake room.exr x/ --for filament --type bc6h
-refuses 2 '--for: Bevy .* graphics cards' bake room.exr x/ --for bevy --format rgba32f
+refuses 2 '--for: Bevy .* texels of float: .* graphics cards' bake room.exr x/ --for bevy --format rgba32f
 refuses 2 '--for: Godot .* filters a panorama itself' bake room.exr x/ --for godot --size 64
 refuses 2 '--lobe: a set is made' bake room.exr x/ --lobe phong
 refuses 2 '--max-bytes: is for a set' bake room.exr x.ktx2 --max-bytes 1000

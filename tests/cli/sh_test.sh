@@ -25,6 +25,10 @@ grep -q '"order": 2' "$work/out" && grep -q '"basis": "orthonormal"' "$work/out"
 does sh white.exr --of irradiance --order 0
 near "its irradiance" "$(coefficients <"$work/out" | cut -d' ' -f2)" "22.273311" 1e-4
 does sh white.exr --basis filament --format filament
+cp "$work/out" white.txt
+does sh white.exr --format filament
+checks=$((checks + 1))
+cmp -s "$work/out" white.txt || fail "Filament's text has another basis by default"
 near "Filament's text" "$(head -n 1 "$work/out" | grep -oE '[0-9.]+' | head -n 1)" 2 1e-5
 [[ $(wc -l <"$work/out") == 9 ]] || fail "Filament's text has not nine lines"
 

@@ -29,8 +29,6 @@ struct Known {
 
 /// Those with a mark at a place of its own. The first that fits is told.
 constexpr Known kKnown[] = {
-    {0, "\x86\x16\x87\x96\xf6\xd6\x96\x36"sv, "an environment of Babylon.js (.env)",
-     "use the .hdr or .exr that it was made from"},
     {0, "PVR\3"sv, "a PVR texture", "convert it, for instance by `PVRTexToolCLI -d`"},
     {0, "\x13\xab\xa1\x5c"sv, "an ASTC texture",
      "convert it to EXR by `astcenc -dh` or to PNG by `astcenc -dl`"},

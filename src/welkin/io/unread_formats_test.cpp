@@ -52,7 +52,6 @@ TEST(UnreadFormats, AreNamedWithWhatConvertsThem) {
   };
   const std::string rest(200, '\5');
   const std::vector<Case> cases = {
-      {"\x86\x16\x87\x96\xf6\xd6\x96\x36{}", "Babylon", ".hdr"},
       {"8BPS\0\1"s + rest, "(PSD)", "save it as EXR"},
       {"8BPS\0\2"s + rest, "(PSB)", "save it as EXR"},
       {"BM\x36\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0"s + rest, "BMP", "magick"},
