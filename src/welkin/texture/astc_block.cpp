@@ -127,7 +127,7 @@ void infill(const Block& block, int plane, int* weights) {
 std::uint16_t half_of_unorm(int value) {
   if (value == 0xffff) return 0x3c00;
   if (value < 4) return static_cast<std::uint16_t>(value << 8);  // below 2^-14: steps of 2^-24
-  const int exponent = std::bit_width(static_cast<unsigned>(value)) - 1;
+  const int exponent = static_cast<int>(std::bit_width(static_cast<unsigned>(value))) - 1;
   const int mantissa = (exponent <= 10 ? value << (10 - exponent) : value >> (exponent - 10)) & 0x3ff;
   return static_cast<std::uint16_t>((exponent - 1) << 10 | mantissa);
 }

@@ -291,7 +291,8 @@ void read_sequence(const Bits& bits, int at, int range, std::span<std::uint8_t> 
     }
     const Digits digits = group == 5 ? tables.trits[code] : group == 3 ? tables.quints[code] : Digits{};
     for (std::size_t i = 0; i < count; ++i)
-      values[first + i] = static_cast<std::uint8_t>(digits[i] << layout.low_bits | lows[i]);
+      values[first + i] =
+          static_cast<std::uint8_t>(static_cast<unsigned>(digits[i]) << layout.low_bits | lows[i]);
   }
 }
 

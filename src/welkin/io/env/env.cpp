@@ -109,7 +109,7 @@ void check_shape(const texels::TextureShape& shape) {
   if (!std::has_single_bit(side) || shape.width > kLargestFace)
     refuse("faces of a power of two up to " + std::to_string(kLargestFace) + ", not of " +
            std::to_string(shape.width) + ": Babylon.js counts its levels by log2 of that");
-  const int all = std::bit_width(side);
+  const int all = static_cast<int>(std::bit_width(side));
   if (shape.levels != all)
     refuse("all " + std::to_string(all) + " levels of faces of " + std::to_string(shape.width) + ", not " +
            std::to_string(shape.levels) + ": Babylon.js refuses any other number");

@@ -73,7 +73,7 @@ Manifest parse_manifest(const Source& source) {
                 "is of version " + std::to_string(version.get<std::uint64_t>()) + ": 1 and 2 are read");
   Manifest manifest;
   manifest.width = face_width(source, json);
-  manifest.levels = std::bit_width(static_cast<unsigned>(manifest.width));
+  manifest.levels = static_cast<int>(std::bit_width(static_cast<unsigned>(manifest.width)));
   const ordered_json& specular = member(json, "specular");
   const ordered_json& mipmaps = member(specular, "mipmaps");
   const std::size_t wanted = 6 * static_cast<std::size_t>(manifest.levels);

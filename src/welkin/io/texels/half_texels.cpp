@@ -1,5 +1,9 @@
 #include "welkin/io/texels/half_texels.h"
 
+#ifdef WELKIN_HAS_AVX2
+#include <cpuid.h>
+#endif
+
 #include "welkin/base/cpu.h"
 
 namespace welkin::io::texels {
@@ -10,7 +14,10 @@ void decode_half_texels_f16c(const std::byte* in, int count, float* out, int cha
 
 namespace {
 bool has_f16c() {
-  return instruction_set() == InstructionSet::avx2 && __builtin_cpu_supports("f16c");
+  // Not __builtin_cpu_supports: Clang 14 doesn't know the name.
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return instruction_set() == InstructionSet::avx2 && __get_cpuid(1, &a, &b, &c, &d) != 0 &&
+         (c & bit_F16C) != 0;
 }
 }  // namespace
 
