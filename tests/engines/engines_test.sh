@@ -22,6 +22,15 @@ for program in node npm chromium; do
   command -v "$program" >/dev/null || fail "$program is not installed (Debian's packages nodejs, npm and chromium; ./dev packages installs them)"
 done
 
+# Containers may forbid what a browser needs of the system; that is no fault of ours.
+started=$(timeout 60 chromium --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir="$PWD/probe" \
+  --dump-dom 'data:text/html,<p>started</p>' 2>probe.log || true)
+rm -rf probe
+if [[ $started != *started* ]]; then
+  printf 'engines_test.sh: skipped: Chromium does not start here: %s\n' "$(tail -n 2 probe.log)" >&2
+  exit 77
+fi
+
 # The packages of the lock file, once for each version of it; maps to their sources and the like are left out.
 if ! cmp -s -- "$here/package-lock.json" installed-lock.json; then
   cp -- "$here/package.json" "$here/package-lock.json" .
