@@ -105,20 +105,6 @@ WriteMapOptions Bake::parse_write() {
   return write.parse();
 }
 
-/// What the file's texels lost.
-std::vector<StoredError> stored_errors(const Chain& chain, const std::string& path,
-                                       const std::string& shape) {
-  ReadMapOptions options;
-  options.shape = shape;
-  options.orientation = chain.levels.front().orientation;
-  options.join_faces = false;
-  const Chain again = read_chain(path, options);
-  std::vector<StoredError> errors;
-  for (std::size_t i = 0; i < chain.levels.size(); ++i)
-    errors.push_back(stored_error(chain.levels[i], again.levels.at(i)));
-  return errors;
-}
-
 SanitizeOptions Bake::repairs_for(const std::string& path, const io::WriteOptions& written) const {
   SanitizeOptions repairs = repair.parse(
       std::min(largest_value(path, written.type, std::exp2(exposure)), static_cast<double>(kMaxRadiance)));
@@ -247,7 +233,7 @@ void Bake::run() {
   report_losses(out, write_chain(out, chain, made.shape->layout, write_options));
   report.write_seconds = clock.lap();
   if (write_options.image.type && io::is_packed(*write_options.image.type) && !to_stdout)
-    report.stored = stored_errors(chain, out, made.shape->text());
+    report.stored = stored_errors(chain, read_chain(out, as_written(chain, made.shape->text())));
   json ? report.print_json() : report.print();
   report.report_misses();
 }

@@ -17,14 +17,6 @@ turned() {
   done
   printf '%s' "${list#,}"
 }
-# says PATTERN ARGUMENT…: it works, and a message has PATTERN.
-says() {
-  local pattern=$1
-  shift
-  checks=$((checks + 1))
-  run "$@"
-  ((status == 0)) && grep -qF -- "$pattern" "$work/messages" || fail "welkin $*: status $status: $(head -n 3 -- "$work/messages")"
-}
 opposite() { turned "$1" "-x -y -z"; }
 
 # shows MAP "WORLD=DIRECTION …" TOLERANCE [OPTION…]: along each DIRECTION of the map lies the card's colour of WORLD.
@@ -127,10 +119,10 @@ shows ball.exr "0,0,1=0,0,1 1,0,0=1,0,0 0,1,0=0,1,0" 0.03 --from-convention nati
 # A convention that a file declares is kept, and told; a format that can't say so shows it all the same.
 name=kept
 must convert card.exr cube.ktx2 --to cube --size 32 --convention three.js
-says "is in the convention three.js, as cube.ktx2 is; --convention native turns it" convert cube.ktx2 again.ktx2
+tells_text "is in the convention three.js, as cube.ktx2 is; --convention native turns it" convert cube.ktx2 again.ktx2
 matches '^  welkin.convention +three.js$' info again.ktx2 --header
 same cube.ktx2 again.ktx2 0 --from-convention native
-says "which the file cannot say" convert cube.ktx2 six-%s.pfm --to cube:faces
+tells_text "which the file cannot say" convert cube.ktx2 six-%s.pfm --to cube:faces
 must convert card.exr told-%s.pfm --to cube:faces --size 32 --convention three.js
 same told-%s.pfm six-%s.pfm 1e-3
 must convert cube.ktx2 panorama.exr --to latlong --size 128 -q
@@ -140,7 +132,7 @@ shows native.ktx2 "$declared" 0.1 --from-convention native
 
 # Mitsuba's rows lie on the poles.
 name=mitsuba
-says "is mitsuba-latlong, as mitsuba reads a latlong" convert card.exr rows.exr --to latlong --size 64 --convention mitsuba
+tells_text "is mitsuba-latlong, as mitsuba reads a latlong" convert card.exr rows.exr --to latlong --size 64 --convention mitsuba
 matches '^  parameterization  mitsuba-latlong' info rows.exr --header
 shows rows.exr "0,1,0=0,1,0 0,-1,0=0,-1,0" 0.02
 must convert card.exr rows.pfm --to latlong --size 64 --convention mitsuba -q

@@ -44,6 +44,17 @@ must() {
   fi
 }
 
+# tells PATTERN ARGUMENT…: welkin does this, and a message matches the regular expression; tells_text: a message has this text.
+tells() { tells_by -E "$@"; }
+tells_text() { tells_by -F "$@"; }
+tells_by() {
+  local kind=$1 pattern=$2
+  shift 2
+  checks=$((checks + 1))
+  run "$@"
+  ((status == 0)) && grep -q "$kind" -- "$pattern" "$work/messages" || fail "welkin $*: status $status: $(head -n 3 -- "$work/messages")"
+}
+
 # refuses STATUS PATTERN ARGUMENT…: welkin ends with STATUS and one message, `welkin: …`, that matches the regular
 # expression PATTERN; nothing is on standard output, and no file appears, disappears or changes.
 refuses() {

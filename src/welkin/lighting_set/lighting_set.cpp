@@ -221,8 +221,8 @@ class SetMaker {
     made.losses = write_chain(sink, format_of(made.made), chain, write);
     made.bytes = sink.take();
     made.encoding_seconds = clock.lap();
-    Chain again = read_again(made.bytes, made.made, chain.levels.front().orientation);
-    const std::vector<StoredError> errors = errors_of(chain, again);
+    Chain again = read_chain(made.bytes, made.made.name, as_written(chain, made.made.to));
+    const std::vector<StoredError> errors = stored_errors(chain, again);
     for (std::size_t i = 0; i < chain.levels.size(); ++i) {
       SetLevel level;
       level.size = {chain.levels[i].width(), chain.levels[i].height()};
@@ -237,21 +237,6 @@ class SetMaker {
     if (options_.compare_formats) compare_formats(made, chain);
     again.notes = chain.notes;
     set_->specular = std::move(again);
-  }
-
-  static Chain read_again(std::span<const std::byte> bytes, const SetFile& file, const Matrix3& orientation) {
-    ReadMapOptions options;
-    options.shape = file.to;
-    options.orientation = orientation;
-    options.join_faces = false;
-    return read_chain(bytes, file.name, options);
-  }
-
-  static std::vector<StoredError> errors_of(const Chain& chain, const Chain& again) {
-    std::vector<StoredError> errors;
-    for (std::size_t i = 0; i < chain.levels.size(); ++i)
-      errors.push_back(stored_error(chain.levels[i], again.levels.at(i)));
-    return errors;
   }
 
   FormatChoice choice_of(const std::string& type, const std::string& compression, std::uint64_t bytes,
@@ -276,7 +261,8 @@ class SetMaker {
         io::MemorySink sink;
         write_chain(sink, "ktx2", chain, write_options(type, compression));
         bytes = sink.size();
-        errors = errors_of(chain, read_again(sink.bytes(), made.made, chain.levels.front().orientation));
+        errors =
+            stored_errors(chain, read_chain(sink.bytes(), made.made.name, as_written(chain, made.made.to)));
       }
       const std::string stored =
           is_made ? (made.made.compression.empty() ? "none" : made.made.compression) : compression;

@@ -69,4 +69,21 @@ StoredError stored_error(const Map& given, const Map& stored) {
   return all;
 }
 
+std::vector<StoredError> stored_errors(const Chain& given, const Chain& stored) {
+  if (given.levels.size() != stored.levels.size())
+    throw Error(ErrorKind::mismatch, "chains of other levels have no error of storing");
+  std::vector<StoredError> errors;
+  for (std::size_t i = 0; i < given.levels.size(); ++i)
+    errors.push_back(stored_error(given.levels[i], stored.levels[i]));
+  return errors;
+}
+
+ReadMapOptions as_written(const Chain& given, const std::string& shape) {
+  ReadMapOptions options;
+  options.shape = shape;
+  options.orientation = given.levels.front().orientation;
+  options.join_faces = false;
+  return options;
+}
+
 }  // namespace welkin

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "welkin/base/export.h"
-#include "welkin/map/map.h"
+#include "welkin/map/chain.h"
+#include "welkin/map_file/map_file.h"
 
 /// @file
 /// What storing changed.
@@ -30,5 +33,12 @@ struct WELKIN_API StoredError {
 WELKIN_API StoredError stored_error(const Map& given, const Map& stored);
 WELKIN_API StoredError stored_error(ImageView<const float> given, ImageView<const float> stored);
 /// @}
+
+/// Of each level of a chain. Throws Error (mismatch) for another number of levels, and as stored_error.
+WELKIN_API std::vector<StoredError> stored_errors(const Chain& given, const Chain& stored);
+
+/// How a chain is read again from a file of this shape (parse_map_shape) that it was written to: in the world
+/// that it has, whatever the file can say of it.
+WELKIN_API ReadMapOptions as_written(const Chain& given, const std::string& shape);
 
 }  // namespace welkin
