@@ -16,14 +16,10 @@
 namespace welkin::io {
 namespace {
 
-/// Scan lines that one task decodes together.
-struct Batch {
-  struct Line {
-    std::size_t at;
-    HdrCoding coding;
-  };
-  int first = 0;
-  std::vector<Line> lines;
+/// Where a scan line is stored.
+struct StoredLine {
+  std::size_t at = 0;
+  HdrCoding coding = HdrCoding::flat;
 };
 
 class HdrReader : public FormatReader {
@@ -92,7 +88,7 @@ class HdrReader : public FormatReader {
       throw in_file(source_.name, error);
     }
   }
-  void decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb,
+  void decode_line(const StoredLine& stored, int line, HdrPlanes& planes, float* rgb,
                    const PixelDecoder& decoder, std::span<const int> channels, ImageView<float> out) const;
 
   Source source_;
@@ -103,7 +99,7 @@ class HdrReader : public FormatReader {
 };
 
 /// One scan line to where it belongs in `out`. The common one, an upright row of R G B, goes there directly.
-void HdrReader::decode_line(const Batch::Line& stored, int line, HdrPlanes& planes, float* rgb,
+void HdrReader::decode_line(const StoredLine& stored, int line, HdrPlanes& planes, float* rgb,
                             const PixelDecoder& decoder, std::span<const int> channels,
                             ImageView<float> out) const {
   const int length = header_.line_length();
@@ -142,29 +138,29 @@ void HdrReader::decode(std::size_t part, std::span<const int> channels, ImageVie
   const int length = header_.line_length();
   const int lines_of_batch = std::max(1, kPixelsOfBatch / length);
   std::size_t at = header_.pixels_at;
+  std::vector<StoredLine> lines(static_cast<std::size_t>(header_.lines()));
   int next = 0;
+  // What travels between the stages owns nothing: TBB may forget it where another line throws.
   const auto find_lines = [&](tbb::flow_control& control) {
-    Batch batch{next, {}};
-    const int end = std::min(next + lines_of_batch, header_.lines());
+    const int first = next, end = std::min(next + lines_of_batch, header_.lines());
     for (; next < end; ++next) {
-      Batch::Line line{at, HdrCoding::flat};
+      StoredLine& line = lines[static_cast<std::size_t>(next)];
+      line.at = at;
       at = line_end(next, at, line.coding);
-      batch.lines.push_back(line);
     }
-    if (batch.lines.empty()) control.stop();
-    return batch;
+    if (first == end) control.stop();
+    return first;
   };
-  const auto decode_lines = [&](const Batch& batch) {
+  const auto decode_lines = [&](int first) {
+    const int end = std::min(first + lines_of_batch, header_.lines());
     HdrPlanes planes(length);
     std::vector<float> rgb(3 * static_cast<std::size_t>(length));
-    for (std::size_t k = 0; k < batch.lines.size(); ++k) {
-      decode_line(batch.lines[k], batch.first + static_cast<int>(k), planes, rgb.data(), decoder, channels,
-                  out);
-    }
+    for (int line = first; line < end; ++line)
+      decode_line(lines[static_cast<std::size_t>(line)], line, planes, rgb.data(), decoder, channels, out);
   };
   tbb::parallel_pipeline(static_cast<std::size_t>(4 * tbb::this_task_arena::max_concurrency()),
-                         tbb::make_filter<void, Batch>(tbb::filter_mode::serial_in_order, find_lines) &
-                             tbb::make_filter<Batch, void>(tbb::filter_mode::parallel, decode_lines));
+                         tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, find_lines) &
+                             tbb::make_filter<int, void>(tbb::filter_mode::parallel, decode_lines));
 }
 
 std::unique_ptr<FormatReader> open_hdr(const Source& source) {

@@ -40,8 +40,9 @@ class RowEncoder {
   RowEncoder(const WritePart& part, HdrCoding coding, bool srgb)
       : part_(part), order_(channel_order(part, Alpha::none, "HDR")), coding_(coding), srgb_(srgb) {}
 
-  EncodedRows encode(int first, int end) const {
-    EncodedRows rows;
+  void encode(int first, int end, EncodedRows& rows) const {
+    rows.bytes.clear();
+    rows.report = {};
     PartRows source(part_);
     const ImageView<const float> image = source.rows(first, end - first);
     HdrPlanes planes(image.width);
@@ -59,7 +60,6 @@ class RowEncoder {
       }
       encode_hdr_line(planes, coding_, rows.bytes);
     }
-    return rows;
   }
 
  private:
@@ -90,24 +90,30 @@ WriteReport write_hdr(ByteSink& file, std::span<const WritePart> parts, const Wr
 
   constexpr int kPixelsOfBatch = 1 << 15;
   const int rows_of_batch = std::max(1, kPixelsOfBatch / part.image.width);
+  // They are written in order, so that with this many at work none is overwritten before it is written. What
+  // travels between the stages owns nothing: TBB may forget it where another stage throws.
+  std::vector<EncodedRows> encoded(static_cast<std::size_t>(4 * tbb::this_task_arena::max_concurrency()));
   WriteReport report;
   int next = 0;
   const auto choose_rows = [&](tbb::flow_control& control) {
     const int first = next;
     next = std::min(next + rows_of_batch, part.image.height);
     if (first == next) control.stop();
-    return std::pair{first, next};
+    return first;
   };
-  const auto encode = [&](std::pair<int, int> rows) { return encoder.encode(rows.first, rows.second); };
-  const auto write = [&](const EncodedRows& rows) {
-    file.write(rows.bytes);
-    report = report + rows.report;
+  const auto encode = [&](int first) {
+    EncodedRows& rows = encoded[static_cast<std::size_t>(first / rows_of_batch) % encoded.size()];
+    encoder.encode(first, std::min(first + rows_of_batch, part.image.height), rows);
+    return &rows;
   };
-  using Rows = std::pair<int, int>;
-  tbb::parallel_pipeline(static_cast<std::size_t>(4 * tbb::this_task_arena::max_concurrency()),
-                         tbb::make_filter<void, Rows>(tbb::filter_mode::serial_in_order, choose_rows) &
-                             tbb::make_filter<Rows, EncodedRows>(tbb::filter_mode::parallel, encode) &
-                             tbb::make_filter<EncodedRows, void>(tbb::filter_mode::serial_in_order, write));
+  const auto write = [&](const EncodedRows* rows) {
+    file.write(rows->bytes);
+    report = report + rows->report;
+  };
+  tbb::parallel_pipeline(encoded.size(),
+                         tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, choose_rows) &
+                             tbb::make_filter<int, EncodedRows*>(tbb::filter_mode::parallel, encode) &
+                             tbb::make_filter<EncodedRows*, void>(tbb::filter_mode::serial_in_order, write));
   return report;
 }
 
