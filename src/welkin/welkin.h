@@ -61,6 +61,7 @@
 #include "welkin/lobe/lobe.h"
 #include "welkin/lobe/roughness_curve.h"
 #include "welkin/lobe/zonal.h"
+#include "welkin/lookup/cone.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/chain.h"
