@@ -19,7 +19,7 @@
 #include "progress.h"
 #include "sanitize_flags.h"
 #include "welkin/base/number_text.h"
-#include "welkin/harmonics/env_irradiance.h"
+#include "welkin/harmonics/file_irradiance.h"
 #include "welkin/light/extract.h"
 #include "welkin/map/adjust.h"
 #include "welkin/prefilter/source_faults.h"
@@ -226,8 +226,8 @@ void Bake::run() {
   if (exposure != 0) {
     for (Map& level : chain.levels) scale(level, static_cast<float>(std::exp2(exposure)));
   }
-  if (is_env(out)) {
-    write_options.image.irradiance = harmonics::env_irradiance(source, options.prefilter.orientation);
+  if (const std::string basis = irradiance_of(out); !basis.empty()) {
+    write_options.image.irradiance = harmonics::file_irradiance(source, basis, options.prefilter.orientation);
     for (double& each : write_options.image.irradiance) each *= std::exp2(exposure);
   }
   report_losses(out, write_chain(out, chain, made.shape->layout, write_options));

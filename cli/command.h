@@ -108,8 +108,8 @@ std::string input_path(const std::string& in);
 
 /// UsageError for a name whose extension is that of no format which is written.
 void check_extension(const std::string& path);
-/// Whether a file of this name is Babylon.js's `.env`, whose diffuse light is written beside its levels.
-bool is_env(const std::string& path);
+/// The basis of the diffuse light that a file of this name holds beside its levels; else empty.
+std::string irradiance_of(const std::string& path);
 /// The shape of a map in a file of this convention, as far as it differs: said on stderr. Of no convention,
 /// says where one is expected.
 void fit_to_convention(const std::string& path, const std::string& convention, MapShape& shape);

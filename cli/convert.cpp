@@ -13,7 +13,7 @@
 #include "progress.h"
 #include "sanitize_flags.h"
 #include "welkin/filter/resample.h"
-#include "welkin/harmonics/env_irradiance.h"
+#include "welkin/harmonics/file_irradiance.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map_file/kept_convention.h"
 #include "welkin/map_file/write_resampled.h"
@@ -194,13 +194,13 @@ void Convert::run() const {
   }
   end_progress();
   if (repair.any()) repair.print(in, repaired, repairs);
-  if (is_env(out) && levels > 1) {
+  if (const std::string basis = irradiance_of(out); !basis.empty() && levels > 1) {
     const std::string& lobe = chain.notes.lobe;
     const auto filtered = lobe.empty() ? lobe::AnyLobe::mirror() : lobe::AnyLobe::make(lobe);
     const double roughness = chain.notes.roughness_of(0).value_or(0);
     write_options.image.irradiance =
-        harmonics::env_irradiance(chain.levels.front(), orientation,
-                                  filtered.has_roughness() ? filtered.with_roughness(roughness) : filtered);
+        harmonics::file_irradiance(chain.levels.front(), basis, orientation,
+                                   filtered.has_roughness() ? filtered.with_roughness(roughness) : filtered);
   }
   if (levels > 1) report = write_chain(out, chain, shape->layout, write_options);
   report_losses(out, report);

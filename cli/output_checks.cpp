@@ -6,17 +6,17 @@
 
 namespace welkin::cli {
 
-bool is_env(const std::string& path) {
+std::string irradiance_of(const std::string& path) {
   try {
-    return io::capabilities_for(path).format == "env";
+    return io::capabilities_for(path).irradiance;
   } catch (const Error&) {
-    return false;  // which is told where the output is checked
+    return "";  // which is told where the output is checked
   }
 }
 
 void fit_to_convention(const std::string& path, const std::string& convention, MapShape& shape) {
   if (convention.empty()) {
-    if (is_env(path))
+    if (irradiance_of(path) == "babylon")
       print_warning(path,
                     "is in the native world, which no scene of Babylon.js is: --convention babylon or "
                     "babylon-right-handed");

@@ -65,6 +65,7 @@ const std::vector<Seeds>& all_seeds() {
       {"dds", "dds", {half, float32}, {"none"}, {1, 3, 4}, {95}, false, true, true},
       {"dds", "dds", {rgb9e5, r11g11b10, bc6h}, {"none"}, {1, 3}, {95}, false, true, true},
       {"env", "env", {uint8}, {"zip"}, {1, 3}, {95}, false, false, false, true},
+      {"glb", "glb", {uint8}, {"zip"}, {1, 3}, {95}, false, false, false, true},
       {"pfm", "pfm", {float32}, {"none"}, {1, 3}},
       {"png", "png", {uint8, uint16}, {"zip", "none"}, {1, 2, 3, 4}},
       {"jpeg", "jpg", {uint8}, {""}, {1, 3}, {30, 95}},
@@ -143,6 +144,7 @@ void write_seeds(const fs::path& root, const Seeds& seeds) {
           options.type = type;
           options.compression = compression;
           options.quality = quality;
+          if (seeds.folder == "glb") options.irradiance.assign(27, 0.5);
           if (count % 2 == 0) options.attributes = {{"Author", "nobody"}};
           const std::string name = std::string(io::name_of(type)) + std::to_string(count++);
           io::write(root / seeds.folder / (name + "." + seeds.extension), parts, options);

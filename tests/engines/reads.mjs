@@ -48,6 +48,16 @@ export const READS = {
     diffuseDegree: 2,
   },
 
+  // The same of a light of a glTF file: EXT_lights_image_based.js, lodGenerationScale = (levels − 1) / log2(width). Its diffuse light is the
+  // file's.
+  "babylon, glTF": {
+    level: (r, last) => Math.min(Math.max((last / 8) * Math.log2(256 * slope(r)), 0), last),
+    least: 0,
+    toNormal: () => 0,
+    metal: (E, L, D, r) => L + slope(r) * (D - L),
+    diffuseDegree: 2,
+  },
+
   // src/scene/shader-lib/glsl/chunks/lit/frag/: reflectionEnv (calcReflection), ambient, fresnelSchlick; src/scene/graphics/env-lighting.js
   // resamples the cube into an atlas, and makes the diffuse light of level 0.
   playcanvas: PLAYCANVAS,

@@ -75,7 +75,7 @@ struct Entry {
 const std::vector<std::string> kPlain{"L00", "L1-1", "L10", "L11", "L2-2", "L2-1", "L20", "L21", "L22"};
 
 std::vector<Entry> make_entries() {
-  const auto cosine_only = [](std::size_t index) { return kPi * cosine(index); };
+  const auto signed_irradiance = [](std::size_t index) { return kPi * cosine(index) * sign(index); };
   return {
       {{"orthonormal",
         "L_lm of radiance, all signs +, any degree",
@@ -118,9 +118,11 @@ std::vector<Entry> make_entries() {
         {"1", "x", "y", "z", "xz", "zy", "yx", "3zz-1", "xx-yy"},
         "playcanvas/engine, src/scene/shader-lib/glsl/chunks/lit/frag/ambient.js"},
        diagonal(folded, {0, 3, 1, 2, 7, 5, 4, 6, 8})},
-      {{"gltf", "E_lm of irradiance, all signs +: EXT_lights_image_based", "native", 2, kPlain,
-        "KhronosGroup/glTF, extensions/2.0/Vendor/EXT_lights_image_based/README.md"},
-       diagonal(cosine_only)},
+      {{"gltf", "E_lm of irradiance with the sign (−1)^m: EXT_lights_image_based", "native", 2, kPlain,
+        "KhronosGroup/glTF, extensions/2.0/Vendor/EXT_lights_image_based/README.md, which leaves the signs "
+        "open; "
+        "BabylonJS/Babylon.js, packages/dev/core/src/Maths/sphericalPolynomial.ts, SphericalHarmonics"},
+       diagonal(signed_irradiance)},
   };
 }
 

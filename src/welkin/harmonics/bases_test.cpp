@@ -87,9 +87,12 @@ std::vector<Case> shader_cases() {
        same},
       {"gltf",
        [](const auto& k, const Vec3d& n) {
+         // convertIrradianceToLambertianRadiance, then preScaleForRendering, whose constants have the sign
+         // (−1)^m.
+         const int sign_of[9] = {1, -1, 1, -1, 1, -1, 1, -1, 1};
          double y[9], sum = 0;
          evaluate_functions(2, n, y);
-         for (std::size_t i = 0; i < 9; ++i) sum += k[i] * y[i];
+         for (std::size_t i = 0; i < 9; ++i) sum += sign_of[i] * k[i] * y[i];
          return sum / kPi;
        },
        same},

@@ -60,7 +60,10 @@ struct WELKIN_API Capabilities {
   bool lossless = true;                   ///< what is stored is what was given, rounded to the type
   bool hdr = false;                       ///< values over 1
   bool negative = false;                  ///< values below 0
-  bool attributes = false;     ///< text metadata, with which a map's shape comes back when it is read
+  bool attributes = false;  ///< text metadata, with which a map's shape comes back when it is read
+  /// The basis of the harmonics of diffuse light that stand beside the pictures (harmonics/bases.h); else
+  /// empty.
+  std::string irradiance = {};
   int longest_side = 1 << 20;  ///< of a picture, texels
   bool writable = true;        ///< false: the format is only read
 

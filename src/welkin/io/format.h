@@ -50,6 +50,7 @@ Format ktx2_format();
 Format ktx1_format();
 Format dds_format();
 Format env_format();
+Format glb_format();
 Format pfm_format();
 Format png_format();
 Format jpeg_format();

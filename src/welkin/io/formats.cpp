@@ -71,9 +71,10 @@ std::string gibibytes(long double bytes) {
 }  // namespace
 
 const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {
-      exr_format(),  hdr_format(),  ktx2_format(), ktx1_format(), dds_format(),  pfm_format(),  png_format(),
-      jpeg_format(), tiff_format(), webp_format(), jxl_format(),  avif_format(), heif_format(), env_format()};
+  static const std::vector<Format> all = {exr_format(),  hdr_format(),  ktx2_format(), ktx1_format(),
+                                          dds_format(),  pfm_format(),  png_format(),  jpeg_format(),
+                                          tiff_format(), webp_format(), jxl_format(),  avif_format(),
+                                          heif_format(), env_format(),  glb_format()};
   return all;
 }
 

@@ -184,8 +184,8 @@ struct WriteOptions {
   std::optional<Panorama> panorama = {};                    ///< XMP's GPano, in formats that carry XMP
   /// How radiance is laid into R G B A of 8 bits: PNG of R G B alone.
   std::optional<LightEncoding> encoding = {};
-  /// Of `.env`: Babylon.js's polynomial of the diffuse light, x y z xx yy zz yz zx xy, each of R, G and B, in
-  /// the coordinates of its look-up; 27 numbers, or none (harmonics/env_irradiance.h).
+  /// Of formats with Capabilities::irradiance: the diffuse light in that basis, of each coefficient R, G and
+  /// B, in the coordinates of the cube's look-up; 27 numbers, or none (harmonics/file_irradiance.h).
   std::vector<double> irradiance = {};
 };
 

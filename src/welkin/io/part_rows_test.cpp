@@ -44,7 +44,7 @@ TEST(PartRows, AreThoseOfThePicture) {
 
 TEST(PartRows, GiveTheSameFileInEveryFormat) {
   for (const std::string& extension : writable_extensions()) {
-    if (extension == "env") continue;  // holds a cube alone
+    if (extension == "env" || extension == "glb") continue;  // hold a cube alone
     for (const int channels : {1, 3}) {
       const Image image = noise(33, 700, channels);
       const WritePart part{"", image.view(), names_of(channels)};

@@ -57,7 +57,6 @@ constexpr Known kKnown[] = {
     {0, "MMOR"sv, "a camera's raw file (ORF)", kDevelop},
     {0, "IIU\0"sv, "a camera's raw file (RW2)", kDevelop},
     {4, "ftypcrx "sv, "a camera's raw file (CR3)", kDevelop},
-    {0, "glTF"sv, "a glTF model (GLB)", "name the picture of its environment instead"},
     {0, "PK\3\4"sv, "a ZIP archive", kUnpack},
     {0, "\x1f\x8b\x08"sv, "a gzip archive", kUnpack},
     {0, "7z\xbc\xaf\x27\x1c"sv, "a 7z archive", kUnpack},
@@ -156,7 +155,9 @@ std::optional<std::string> unread_text(std::string_view text) {
     return told("an XML text", "see what it says: servers answer so in place of a file");
   }
   if (begins(rest, "{")) {
-    if (holds("\"asset\"")) return told("a glTF model", "name the picture of its environment instead");
+    if (holds("\"asset\""))
+      return told("a glTF model",
+                  "name the picture of its environment, or pack its image-based light into a .glb");
     return told("a JSON text", "see what it says: servers answer so in place of a file");
   }
   const bool printable = std::none_of(text.begin(), text.end(), [](unsigned char c) {

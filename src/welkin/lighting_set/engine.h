@@ -42,6 +42,10 @@ struct SetFile {
   std::string table = {};             ///< of tables: the name of one of engine_tables
 };
 
+/// A curve that depends on the size of faces, which set_files puts a list in the place of: Babylon.js reads
+/// the light of a .glb at level (levels − 1)(1 + 2 log2(roughness) / log2(width)).
+inline constexpr std::string_view kGltfCurve = "gltf";
+
 /// What an engine takes of a specular chain, so that a set that it can't load is refused.
 struct SetLimits {
   std::vector<std::string> types = {};  ///< of texels; empty: any that the format holds

@@ -202,6 +202,30 @@ Engine babylon(bool right_handed) {
   return engine;
 }
 
+Engine gltf(bool right_handed) {
+  Engine engine;
+  engine.name = right_handed ? "gltf,right-handed" : "gltf";
+  engine.title = right_handed
+                     ? "glTF with EXT_lights_image_based, in Babylon.js 9, scenes with useRightHandedSystem"
+                     : "glTF with EXT_lights_image_based, in Babylon.js 9";
+  engine.summary = "one .glb, a scene that holds nothing but the light";
+  engine.run = true;
+  engine.source =
+      "KhronosGroup/glTF, extensions/2.0/Vendor/EXT_lights_image_based; "
+      "packages/dev/loaders/src/glTF/2.0/Extensions/EXT_lights_image_based.ts";
+  engine.files = {specular_file("environment.glb", "reflections and diffuse light", 256, 5,
+                                std::string(kGltfCurve), right_handed ? "babylon-right-handed" : "babylon",
+                                "")};
+  engine.files[0].mirror_level0 = true;
+  engine.limits.fewest_levels = 2;
+  engine.limits.levels_reason = "its first level is a mirror's, its last that of roughness 1";
+  engine.limits.power_of_two = true;
+  engine.limits.narrowest = 16;
+  engine.limits.width_reason = "the extension has faces of a power of two, down to some 16 texels";
+  engine.snippet = lighting_set::snippet("gltf.js");
+  return engine;
+}
+
 Engine cesium() {
   Engine engine;
   engine.name = "cesium";
@@ -277,6 +301,7 @@ Engine khronos() {
                   std::move(cloth),
                   diffuse_file("lambertian.ktx2", "u_LambertianEnvSampler", 256, "native", "half"),
                   table_file("lut_ggx.png", "u_GGXLUT", "khronos", "uint8"),
+                  table_file("lut_charlie.png", "u_CharlieLUT, of which blue is read", "khronos", "uint8"),
                   table_file("lut_sheen_E.png", "u_SheenELUT", "khronos-sheen", "uint8")};
   return engine;
 }
@@ -323,6 +348,8 @@ const std::vector<Engine>& engines() {
       bevy(),
       cesium(),
       filament(),
+      gltf(false),
+      gltf(true),
       godot(),
       khronos(),
       model_viewer(),

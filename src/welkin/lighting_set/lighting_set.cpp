@@ -12,8 +12,8 @@
 #include "welkin/filter/resample.h"
 #include "welkin/harmonics/coefficients_file.h"
 #include "welkin/harmonics/dering.h"
-#include "welkin/harmonics/env_irradiance.h"
 #include "welkin/harmonics/error_of.h"
+#include "welkin/harmonics/file_irradiance.h"
 #include "welkin/harmonics/project.h"
 #include "welkin/harmonics/zonal.h"
 #include "welkin/lighting_set/encoded_files.h"
@@ -214,8 +214,8 @@ class SetMaker {
     Clock clock;
     io::MemorySink sink;
     WriteMapOptions write = write_options(made.made.type, made.made.compression);
-    if (format_of(made.made) == "env") {
-      write.image.irradiance = harmonics::env_irradiance(source_, chain.levels.front().orientation);
+    if (const std::string basis = io::capabilities(format_of(made.made)).irradiance; !basis.empty()) {
+      write.image.irradiance = harmonics::file_irradiance(source_, basis, chain.levels.front().orientation);
       for (double& value : write.image.irradiance) value *= options_.exposure;
     }
     made.losses = write_chain(sink, format_of(made.made), chain, write);

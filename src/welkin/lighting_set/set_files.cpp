@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "welkin/base/error.h"
 #include "welkin/base/listed.h"
+#include "welkin/base/number_text.h"
 #include "welkin/lighting_set/lighting_set.h"
 #include "welkin/map/chain.h"
 #include "welkin/map_file/layout.h"
@@ -47,11 +49,22 @@ void check_limits(const Engine& engine, const SetFile& file) {
 
 /// Fewer levels of a smaller cube, where the engine takes them: a last level of as many texels.
 int fitting_levels(const Engine& engine, const SetFile& usual, int width) {
-  if (usual.levels == 0 || lobe::RoughnessCurve::from_name(usual.curve).listed_levels() > 0)
+  if (usual.levels == 0 ||
+      (usual.curve != kGltfCurve && lobe::RoughnessCurve::from_name(usual.curve).listed_levels() > 0))
     return usual.levels;
   int levels = usual.levels;
   for (int w = usual.width; w > width && levels > engine.limits.fewest_levels; w /= 2) --levels;
   return levels;
+}
+
+/// The roughness of each level, as Babylon.js reads the light of a .glb.
+std::string gltf_roughness(int levels, int width) {
+  std::string text;
+  for (int level = 0; level < levels; ++level) {
+    const double share = levels == 1 ? 1 : static_cast<double>(level) / (levels - 1);
+    text += (level == 0 ? "" : ",") + number_text(std::pow(width, (share - 1) / 2));
+  }
+  return text;
 }
 
 void apply(const SetOptions& options, const Engine& engine, SetFile& file) {
@@ -68,6 +81,8 @@ void apply(const SetOptions& options, const Engine& engine, SetFile& file) {
     if (!options.levels && options.curve->listed_levels() > 0) file.levels = options.curve->listed_levels();
   }
   if (options.type && file.content == SetContent::specular) file.type = *options.type;
+  if (file.curve == kGltfCurve && file.width > 0 && file.width <= kWidestFace)
+    file.curve = gltf_roughness(levels_of(file), file.width);
 }
 
 }  // namespace

@@ -5,11 +5,9 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
-#include "welkin/io/encode_pixels.h"
-#include "welkin/io/encoded_light.h"
 #include "welkin/io/env/manifest.h"
 #include "welkin/io/format.h"
-#include "welkin/io/png/png.h"
+#include "welkin/io/rgbd_face.h"
 #include "welkin/io/texels/picture_set.h"
 
 /// Babylon.js environments: a cube with all its levels down to one texel, each face a PNG or WebP that holds
@@ -20,8 +18,6 @@
 namespace welkin::io {
 namespace env {
 namespace {
-
-const LightEncoding kRgbd{LightEncoding::Kind::rgbd};
 
 bool matches(std::span<const std::byte> bytes) {
   return bytes.size() >= sizeof kMagic && std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
@@ -62,33 +58,9 @@ class EnvReader final : public FormatReader {
   }
 
   void decode(std::size_t index, std::span<const int> channels, ImageView<float> out) override {
-    const PartInfo& part = info_.parts[index];
     const Extent& extent = manifest_.images[index];
-    const std::string name = source_.name + ": " + part.name;
-    const auto bytes = source_.bytes.subspan(extent.begin, extent.size);
-    ReadOptions options;
-    options.encoding = kRgbd;
-    options.max_bytes = source_.options.max_bytes;
-    const auto format = std::find_if(formats().begin(), formats().end(), [&](const Format& each) {
-      const std::string& kind = each.capabilities.format;
-      return (kind == "png" || kind == "webp") && each.matches(bytes);
-    });
-    if (format == formats().end()) throw Error(ErrorKind::damaged, name, "its image is neither PNG nor WebP");
-    try {
-      const auto image = decode_light(format->open({bytes, name, options}), options);
-      const PartInfo& stored = image->info().parts[0];
-      if (stored.width != part.width || stored.height != part.height) {
-        throw Error(ErrorKind::damaged, "its image is " + std::to_string(stored.width) + "×" +
-                                            std::to_string(stored.height) + ", not " +
-                                            std::to_string(part.width) + "×" + std::to_string(part.width));
-      }
-      Image upside_down(out.width, out.height, out.channels);
-      image->read(0, channels, upside_down.view());
-      for (int y = 0; y < out.height; ++y)
-        std::copy_n(upside_down.at(0, out.height - 1 - y), out.width * out.channels, out.row(y));
-    } catch (const Error& error) {
-      throw error.file().empty() ? in_file(name, error) : error;
-    }
+    read_face(source_.bytes.subspan(extent.begin, extent.size), source_.name + ": " + info_.parts[index].name,
+              source_, false, channels, out);
   }
 
  private:
@@ -115,20 +87,6 @@ void check_shape(const texels::TextureShape& shape) {
            std::to_string(shape.levels) + ": Babylon.js refuses any other number");
 }
 
-std::vector<std::byte> png_of(const WritePart& part, WriteReport& report) {
-  const Image encoded = encode_light(part, kRgbd, report);
-  Image upside_down(encoded.width(), encoded.height(), 4);
-  for (int y = 0; y < encoded.height(); ++y)
-    std::copy_n(encoded.at(0, encoded.height() - 1 - y), encoded.width() * 4, upside_down.at(0, y));
-  WriteOptions options;
-  options.type = PixelType::uint8;
-  options.encoding = kRgbd;
-  const WritePart picture{"", upside_down.view(), {"R", "G", "B", "A"}};
-  MemorySink sink;
-  write_png(sink, {&picture, 1}, options);
-  return sink.take();
-}
-
 WriteReport write_env(ByteSink& file, std::span<const WritePart> parts, const WriteOptions& options) {
   require(options.irradiance.empty() || options.irradiance.size() == 27,
           "the polynomial of the irradiance has 27 numbers");
@@ -139,7 +97,7 @@ WriteReport write_env(ByteSink& file, std::span<const WritePart> parts, const Wr
   std::vector<std::uint64_t> sizes;
   for (int level = 0; level < pictures.shape().levels; ++level) {
     for (int face = 0; face < 6; ++face) {
-      images.push_back(png_of(pictures.at(level, face), report));
+      images.push_back(rgbd_png(pictures.at(level, face), report));
       sizes.push_back(images.back().size());
     }
   }
@@ -167,6 +125,7 @@ Format env_format() {
            .lossless = false,
            .hdr = true,
            .attributes = true,
+           .irradiance = "babylon",
            .longest_side = env::kLargestFace},
           env::matches,
           env::open_env,

@@ -1,4 +1,4 @@
-#include "welkin/harmonics/env_irradiance.h"
+#include "welkin/harmonics/file_irradiance.h"
 
 #include <algorithm>
 #include <iterator>
@@ -10,7 +10,8 @@
 
 namespace welkin::harmonics {
 
-std::vector<double> env_irradiance(const Map& map, const Matrix3& look_up, const lobe::AnyLobe& lobe) {
+std::vector<double> file_irradiance(const Map& map, std::string_view basis, const Matrix3& look_up,
+                                    const lobe::AnyLobe& lobe) {
   constexpr int kDegree = 2;
   std::vector<double> factors = lobe_factors(lobe, kDegree);
   for (double& factor : factors) {
@@ -18,14 +19,15 @@ std::vector<double> env_irradiance(const Map& map, const Matrix3& look_up, const
     factor = factor > 1e-3 ? 1 / factor : 0;
   }
   const SphericalHarmonics light = convolved(project(map, kDegree), factors);
-  const BasisCoefficients stored = to_basis(light, basis_from_name("babylon"), look_up);
+  const BasisCoefficients stored = to_basis(light, basis_from_name(basis), look_up);
   const std::vector<std::string>& names = stored.channel_names;
   std::vector<std::size_t> order;
   for (const char* name : {"R", "G", "B"}) {
     auto found = std::find(names.begin(), names.end(), name);
     if (names.size() == 1) found = names.begin();
     if (found == names.end())
-      throw Error(ErrorKind::unsupported, "diffuse light of .env is of R, G and B, which the map lacks");
+      throw Error(ErrorKind::unsupported,
+                  "the diffuse light of such a file is of R, G and B, which the map lacks");
     order.push_back(static_cast<std::size_t>(found - names.begin()));
   }
   std::vector<double> polynomial;

@@ -1,4 +1,4 @@
-#include "welkin/harmonics/env_irradiance.h"
+#include "welkin/harmonics/file_irradiance.h"
 
 #include <gtest/gtest.h>
 
@@ -28,10 +28,10 @@ Map slope(int channels) {
 }
 
 /// Constant light c is c(x² + y² + z²). A slope of s is s·(2/3)² of it: π and 2π/3 over π, twice.
-TEST(EnvIrradiance, IsBabylonsPolynomial) {
+TEST(FileIrradiance, IsBabylonsPolynomial) {
   const Matrix3 look_up =
       orientation_for(convention_from_name("babylon"), sphere::AnyParameterization::make("cube"));
-  const std::vector<double> p = env_irradiance(slope(3), look_up);
+  const std::vector<double> p = file_irradiance(slope(3), "babylon", look_up);
   ASSERT_EQ(p.size(), 27u);
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t row = 0; row < 3; ++row) {
@@ -45,23 +45,24 @@ TEST(EnvIrradiance, IsBabylonsPolynomial) {
 }
 
 /// The same of a map that a lobe has filtered.
-TEST(EnvIrradiance, UndoesALobe) {
+TEST(FileIrradiance, UndoesALobe) {
   const lobe::AnyLobe lobe = lobe::AnyLobe::make("ggx,roughness=0.4");
   const Map map = slope(3);
   const Map filtered =
       map_of(convolved(project(map, 2), lobe_factors(lobe, 2)), map.parameterization, {64, 32});
-  const std::vector<double> wanted = env_irradiance(map, {}), found = env_irradiance(filtered, {}, lobe);
+  const std::vector<double> wanted = file_irradiance(map, "babylon", {}),
+                            found = file_irradiance(filtered, "babylon", {}, lobe);
   for (std::size_t i = 0; i < 27; ++i) EXPECT_NEAR(found[i], wanted[i], 1e-5);
 }
 
-TEST(EnvIrradiance, TakesGreyAndRefusesOthers) {
-  const std::vector<double> grey = env_irradiance(slope(1), {});
+TEST(FileIrradiance, TakesGreyAndRefusesOthers) {
+  const std::vector<double> grey = file_irradiance(slope(1), "babylon", {});
   ASSERT_EQ(grey.size(), 27u);
   EXPECT_EQ(grey[0], grey[1]);
   EXPECT_EQ(grey[0], grey[2]);
   Map other = slope(2);
   other.channel_names = {"U", "V"};
-  EXPECT_THROW(env_irradiance(other, {}), Error);
+  EXPECT_THROW(file_irradiance(other, "babylon", {}), Error);
 }
 
 }  // namespace
