@@ -113,6 +113,9 @@
 #include "welkin/synth/render_synth.h"
 #include "welkin/synth/synth.h"
 #include "welkin/texture/texture_quality.h"
+#include "welkin/video/frame_reader.h"
+#include "welkin/video/frame_writer.h"
+#include "welkin/video/stream_info.h"
 
 /// Environment maps: read, convert, filter, measure, write.
 namespace welkin {}
@@ -126,5 +129,7 @@ namespace welkin::io {}
 namespace welkin::lobe {}
 /// Parameterizations: where a direction lies in a picture.
 namespace welkin::sphere {}
+/// Streams of frames through pipes.
+namespace welkin::video {}
 /// Built-in maps, as functions of direction.
 namespace welkin::synth {}
