@@ -62,6 +62,8 @@
 #include "welkin/lobe/roughness_curve.h"
 #include "welkin/lobe/zonal.h"
 #include "welkin/lookup/cone.h"
+#include "welkin/lookup/cone_reference.h"
+#include "welkin/lookup/cone_shapes.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/chain.h"

@@ -28,4 +28,17 @@ std::string fault_of(const EllipticalCone& cone) {
   return "";
 }
 
+std::string fault_of(const QuadCone& cone) {
+  Vec3d sum{0, 0, 0};
+  for (const Vec3d& corner : cone.corners) {
+    const double far = length(corner);
+    if (!(far > 0) || !std::isfinite(far)) return "a cone's corner is zero or not finite";
+    sum = sum + normalize(corner);
+  }
+  for (const Vec3d& corner : cone.corners) {
+    if (!(dot(sum, normalize(corner)) > 1e-9)) return "a cone's corners don't lie within a hemisphere";
+  }
+  return "";
+}
+
 }  // namespace welkin

@@ -33,5 +33,7 @@ struct QuadCone {
 /// number, `wide` below `narrow`, an axis that points nowhere across the direction where they differ. Empty:
 /// nothing.
 WELKIN_API std::string fault_of(const EllipticalCone& cone);
+/// The same of corners: one that is zero or not finite, or 90° or more from the middle of all four.
+WELKIN_API std::string fault_of(const QuadCone& cone);
 
 }  // namespace welkin
