@@ -63,6 +63,7 @@
 #include "welkin/lobe/zonal.h"
 #include "welkin/lookup/cone.h"
 #include "welkin/lookup/cone_reference.h"
+#include "welkin/lookup/cone_sampler.h"
 #include "welkin/lookup/cone_shapes.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"

@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "welkin/base/error.h"
+#include "welkin/lookup/trilinear.h"
+
+namespace welkin {
+namespace {
+
+constexpr int kMostProbes = 64;
+static_assert(kMostProbes <= static_cast<int>(kConeTile));
+
+/// Half of the row of probes, in σ of what they spread by.
+constexpr float kReach = 2.25f;
+/// Between two probes, in σ of each: a sum of Gaussians so far apart ripples by 2 exp(−2π²/s²) = 1.4 %.
+constexpr float kSpacing = 2;
+
+/// A row of probes: their angles from the middle, and shares.
+struct Row {
+  int count;
+  float sigma;  ///< of each
+  std::array<float, kMostProbes> angle, share;
+};
+
+Row row_of(float wide, float narrow, int most) {
+  Row row;
+  const float spread = std::sqrt(std::max(0.0f, wide * wide - narrow * narrow));
+  const float length = 2 * kReach * spread;
+  const float wanted = length / (kSpacing * std::max(narrow, 1e-9f * length + 1e-30f)) + 1;
+  row.count = wanted >= static_cast<float>(most) ? most : static_cast<int>(std::ceil(wanted));
+  row.sigma = narrow;
+  if (row.count == 1) {
+    // Not even one more fits: what can't be spread is blurred all around.
+    row.sigma = most == 1 ? std::sqrt(wide * narrow) : narrow;
+    row.angle[0] = 0;
+    row.share[0] = 1;
+    return row;
+  }
+  const float step = length / static_cast<float>(row.count - 1);
+  row.sigma = std::max(narrow, step / kSpacing);
+  float total = 0, variance = 0;
+  for (int i = 0; i < row.count; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    const float x = (static_cast<float>(i) - 0.5f * static_cast<float>(row.count - 1)) * step;
+    row.angle[k] = x;
+    row.share[k] = std::exp(-0.5f * (x / spread) * (x / spread));
+    total += row.share[k];
+    variance += row.share[k] * x * x;
+  }
+  // Moved so that the variance is that of the cone, for all that the ends cut off.
+  const float lacking = std::max(0.0f, wide * wide - row.sigma * row.sigma);
+  const float stretch = std::sqrt(lacking * total / variance);
+  for (int i = 0; i < row.count; ++i) {
+    row.angle[static_cast<std::size_t>(i)] *= stretch;
+    row.share[static_cast<std::size_t>(i)] /= total;
+  }
+  return row;
+}
+
+class ProbesLookUp final : public ConeLookUp {
+ public:
+  ProbesLookUp(const SharedMap& map, int most)
+      : trilinear_(map), most_(most), whole_world_(map->parameterization.whole_world()) {}
+
+  void look_up(std::span<const AimedCone> cones, float* radiance) const override {
+    const std::size_t channels = trilinear_.channels();
+    std::fill_n(radiance, cones.size() * channels, 0.0f);
+    std::array<float, kConeTile> areas;
+    trilinear_.areas_of(cones, areas.data());
+    Batch batch;
+    for (std::size_t i = 0; i < cones.size(); ++i) {
+      const AimedCone& cone = cones[i];
+      const Row row = row_of(cone.wide, cone.narrow, most_);
+      const MeanLevel level = trilinear_.level_of(row.sigma * row.sigma, areas[i]);
+      for (int k = 0; k < row.count; ++k) {
+        if (batch.count == kConeTile) flush(batch, radiance);
+        const float angle = row.angle[static_cast<std::size_t>(k)];
+        batch.directions[batch.count] = std::cos(angle) * cone.world + std::sin(angle) * cone.world_axis;
+        batch.levels[batch.count] = level;
+        batch.share[batch.count] = row.share[static_cast<std::size_t>(k)];
+        batch.owner[batch.count] = i;
+        ++batch.count;
+      }
+    }
+    flush(batch, radiance);
+    if (whole_world_) return;
+    // What the map doesn't show is left out.
+    for (std::size_t i = 0; i < cones.size(); ++i) {
+      const float shown = batch.shown[i];
+      for (std::size_t c = 0; c < channels; ++c) {
+        if (shown > 0) radiance[i * channels + c] /= shown;
+      }
+    }
+  }
+
+ private:
+  /// Probes of several cones, looked up together.
+  struct Batch {
+    std::size_t count = 0;
+    std::array<Vec3<float>, kConeTile> directions;
+    std::array<MeanLevel, kConeTile> levels;
+    std::array<float, kConeTile> share;
+    std::array<std::size_t, kConeTile> owner;
+    std::array<float, kConeTile * kMaxChannels> values;
+    std::array<float, kConeTile> shown{};  ///< by cone: the shares of probes that the map shows
+  };
+
+  void flush(Batch& batch, float* radiance) const {
+    if (batch.count == 0) return;
+    const std::size_t channels = trilinear_.channels();
+    trilinear_.look_up({batch.directions.data(), batch.count}, {batch.levels.data(), batch.count},
+                       batch.values.data());
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      if (!whole_world_) {
+        if (!trilinear_.covers(batch.directions[i])) continue;
+        batch.shown[batch.owner[i]] += batch.share[i];
+      }
+      float* out = radiance + batch.owner[i] * channels;
+      for (std::size_t c = 0; c < channels; ++c) out[c] += batch.share[i] * batch.values[i * channels + c];
+    }
+    batch.count = 0;
+  }
+
+  Trilinear trilinear_;
+  int most_;
+  bool whole_world_;
+};
+
+}  // namespace
+
+ConeLookUpPtr make_probes(const SharedMap& map, const ConeSamplerOptions& options) {
+  if (options.probes < 1 || options.probes > kMostProbes) {
+    throw Error(ErrorKind::bad_request, "look-up: " + std::to_string(options.probes) +
+                                            " probes; there can be 1 to " + std::to_string(kMostProbes));
+  }
+  return std::make_unique<ProbesLookUp>(map, options.probes);
+}
+
+}  // namespace welkin
