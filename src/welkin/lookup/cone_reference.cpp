@@ -9,6 +9,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/lookup/tangent_plane.h"
+#include "welkin/math/angles.h"
 
 namespace welkin {
 namespace {
@@ -27,17 +28,53 @@ void require_sound(const std::string& fault) {
   require(fault.empty(), fault.c_str());
 }
 
+/// Caps that the texels of a row lie in: about their centres, past their corners by a fifth for curved sides.
+class RowCaps {
+ public:
+  RowCaps(const sphere::AnyParameterization& p, const Map& map, int chart, int row) {
+    const auto at = [&](double x, double y) { return p.to_sphere(chart, x / map.width(), y / map.height()); };
+    Vec3d above = at(0, row), below = at(0, row + 1);
+    for (int x = 0; x < map.width(); ++x) {
+      const Vec3d next_above = at(x + 1, row), next_below = at(x + 1, row + 1);
+      centres_.push_back(at(x + 0.5, row + 0.5));
+      double radius = 0;
+      for (const Vec3d& corner : {above, below, next_above, next_below}) {
+        radius = std::max(radius, angle_between(centres_.back(), corner));
+      }
+      radii_.push_back(1.2 * radius);
+      above = next_above;
+      below = next_below;
+    }
+  }
+  const Vec3d& centre(int x) const { return centres_[static_cast<std::size_t>(x)]; }
+  double radius(int x) const { return radii_[static_cast<std::size_t>(x)]; }
+
+ private:
+  std::vector<Vec3d> centres_;
+  std::vector<double> radii_;
+};
+
 /// A mean, and what it weighs.
 struct Mean {
   std::vector<double> values;
   double weight;
 };
 
-Mean mean_of(const Map& map, const std::function<double(const Vec3d&)>& weight, int points) {
+/// Beyond `angle` of a direction there is nothing.
+struct Support {
+  Vec3d direction;
+  double angle;
+};
+
+constexpr Support kEverywhere{{0, 0, 1}, 10};
+
+Mean mean_of(const Map& map, const std::function<double(const Vec3d&)>& weight, const Support& support,
+             int points) {
   map.check();
   require(points >= 1, "a grid of no points");
   const auto& p = map.parameterization;
   const Matrix3 to_world = transpose(map.orientation);
+  const Vec3d from = map.orientation * support.direction;
   const std::size_t channels = static_cast<std::size_t>(map.channels());
   const std::size_t stride = channels + 1;  // the last: the weights' sum
   const int rows = map.charts() * map.height();
@@ -46,7 +83,9 @@ Mean mean_of(const Map& map, const std::function<double(const Vec3d&)>& weight, 
     for (int row = range.begin(); row != range.end(); ++row) {
       const int chart = row / map.height(), y = row % map.height();
       double* sum = sums.data() + static_cast<std::size_t>(row) * stride;
+      const RowCaps caps(p, map, chart, y);
       for (int x = 0; x < map.width(); ++x) {
+        if (angle_between(caps.centre(x), from) > support.angle + caps.radius(x)) continue;
         double texel = 0;
         for (int k = 0; k < points * points; ++k) {
           const double u = (x + (k % points + 0.5) / points) / map.width();
@@ -95,6 +134,9 @@ ConeWeight::ConeWeight(const EllipticalCone& cone) {
       wide > narrow ? TangentPlane(direction, to_double(cone.axis)) : TangentPlane(direction);
   pole_ = plane.down;
   const double spread = std::sqrt(std::max(0.0, wide * wide - narrow * narrow));
+  // exp(κ (cos θ − 1)) is below 1e-20 beyond 1 − cos θ = 46/κ.
+  const double chord = std::sqrt(46 / (2 * concentration_));
+  reach_ = (chord < 1 ? 2 * std::asin(chord) : kPi) + 9 * spread;
   if (!(spread > 1e-3 * narrow)) {
     steps_.push_back({direction, 1});
     return;
@@ -134,11 +176,12 @@ double ConeWeight::operator()(const Vec3d& direction) const {
 
 std::vector<double> weighted_mean(const Map& map, const std::function<double(const Vec3d&)>& weight,
                                   int points) {
-  return mean_of(map, weight, points).values;
+  return mean_of(map, weight, kEverywhere, points).values;
 }
 
 std::vector<double> look_up_reference(const Map& map, const EllipticalCone& cone, int points) {
-  return weighted_mean(map, ConeWeight(cone), points);
+  const ConeWeight weight(cone);
+  return mean_of(map, weight, {normalize(to_double(cone.direction)), weight.reach()}, points).values;
 }
 
 std::vector<double> look_up_reference(const Map& map, const QuadCone& cone, int points) {
@@ -164,7 +207,9 @@ std::vector<double> look_up_reference(const Map& map, const QuadCone& cone, int 
     }
     return odd ? 1.0 : 0.0;
   };
-  Mean mean = mean_of(map, inside, points);
+  double reach = 0;
+  for (const Vec3d& corner : cone.corners) reach = std::max(reach, angle_between(plane.normal, corner));
+  Mean mean = mean_of(map, inside, {plane.normal, 1.01 * reach}, points);
   require(mean.weight > 0, "a cone has no area, or one too small for so few points");
   return mean.values;
 }

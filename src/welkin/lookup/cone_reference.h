@@ -27,13 +27,15 @@ class WELKIN_API ConeWeight {
 
   /// At a direction of unit length.
   double operator()(const Vec3d& direction) const;
+  /// Farther than this from the cone's direction, radians, there is less than 1e-17 of it.
+  double reach() const { return reach_; }
 
  private:
   struct Step {
     Vec3d direction;
     double share;
   };
-  double concentration_, scale_;
+  double concentration_, scale_, reach_;
   Vec3d pole_;  ///< of the great circle
   std::vector<Step> steps_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "welkin/lookup/cone_filters.h"
+#include "welkin/lookup/elliptical_weights.h"
 #include "welkin/lookup/tangent_plane.h"
 #include "welkin/lookup/texel_blocks.h"
 
@@ -22,6 +23,9 @@ class EllipticalSum {
   sphere::AnyParameterization p_;
   const Level* level_;
   TexelBlocks blocks_;
+  WeighDirections weigh_;
+  void (*add_row_)(const float* texel, const float* weights, const float* solid_angles, int count,
+                   int channels, double* sum);
 };
 
 }  // namespace welkin

@@ -4,60 +4,18 @@
 #include <string>
 
 #include "welkin/base/error.h"
+#include "welkin/lookup/probe_row.h"
 #include "welkin/lookup/trilinear.h"
 
 namespace welkin {
 namespace {
 
-constexpr int kMostProbes = 64;
 static_assert(kMostProbes <= static_cast<int>(kConeTile));
 
 /// Half of the row of probes, in σ of what they spread by.
 constexpr float kReach = 2.25f;
 /// Between two probes, in σ of each: a sum of Gaussians so far apart ripples by 2 exp(−2π²/s²) = 1.4 %.
 constexpr float kSpacing = 2;
-
-/// A row of probes: their angles from the middle, and shares.
-struct Row {
-  int count;
-  float sigma;  ///< of each
-  std::array<float, kMostProbes> angle, share;
-};
-
-Row row_of(float wide, float narrow, int most) {
-  Row row;
-  const float spread = std::sqrt(std::max(0.0f, wide * wide - narrow * narrow));
-  const float length = 2 * kReach * spread;
-  const float wanted = length / (kSpacing * std::max(narrow, 1e-9f * length + 1e-30f)) + 1;
-  row.count = wanted >= static_cast<float>(most) ? most : static_cast<int>(std::ceil(wanted));
-  row.sigma = narrow;
-  if (row.count == 1) {
-    // Not even one more fits: what can't be spread is blurred all around.
-    row.sigma = most == 1 ? std::sqrt(wide * narrow) : narrow;
-    row.angle[0] = 0;
-    row.share[0] = 1;
-    return row;
-  }
-  const float step = length / static_cast<float>(row.count - 1);
-  row.sigma = std::max(narrow, step / kSpacing);
-  float total = 0, variance = 0;
-  for (int i = 0; i < row.count; ++i) {
-    const std::size_t k = static_cast<std::size_t>(i);
-    const float x = (static_cast<float>(i) - 0.5f * static_cast<float>(row.count - 1)) * step;
-    row.angle[k] = x;
-    row.share[k] = std::exp(-0.5f * (x / spread) * (x / spread));
-    total += row.share[k];
-    variance += row.share[k] * x * x;
-  }
-  // Moved so that the variance is that of the cone, for all that the ends cut off.
-  const float lacking = std::max(0.0f, wide * wide - row.sigma * row.sigma);
-  const float stretch = std::sqrt(lacking * total / variance);
-  for (int i = 0; i < row.count; ++i) {
-    row.angle[static_cast<std::size_t>(i)] *= stretch;
-    row.share[static_cast<std::size_t>(i)] /= total;
-  }
-  return row;
-}
 
 class ProbesLookUp final : public ConeLookUp {
  public:
@@ -72,7 +30,7 @@ class ProbesLookUp final : public ConeLookUp {
     Batch batch;
     for (std::size_t i = 0; i < cones.size(); ++i) {
       const AimedCone& cone = cones[i];
-      const Row row = row_of(cone.wide, cone.narrow, most_);
+      const ProbeRow row = probe_row(cone.wide, cone.narrow, most_);
       const MeanLevel level = trilinear_.level_of(row.sigma * row.sigma, areas[i]);
       for (int k = 0; k < row.count; ++k) {
         if (batch.count == kConeTile) flush(batch, radiance);
@@ -129,6 +87,41 @@ class ProbesLookUp final : public ConeLookUp {
 };
 
 }  // namespace
+
+ProbeRow probe_row(float wide, float narrow, int most) {
+  ProbeRow row;
+  row.angle[0] = 0;
+  row.share[0] = 1;
+  row.count = 1;
+  row.sigma = std::sqrt(wide * narrow);
+  const float gap = wide * wide - narrow * narrow;
+  if (most == 1 || !(gap > 1e-6f * wide * wide)) return row;
+  // As many as lie no farther apart than kSpacing; where those are too many, each becomes wider until `most`
+  // are enough: 2·kReach·√(wide² − σ²) = (most − 1)·kSpacing·σ.
+  const float wanted =
+      std::ceil(2 * kReach * std::sqrt(gap) / (kSpacing * std::max(narrow, 1e-6f * wide))) + 1;
+  row.count = wanted < static_cast<float>(most) ? static_cast<int>(wanted) : most;
+  const float slope = 2 * kReach / (kSpacing * static_cast<float>(row.count - 1));
+  row.sigma = std::max(narrow, wide * slope / std::sqrt(1 + slope * slope));
+  const float spread = std::sqrt(wide * wide - row.sigma * row.sigma);
+  const float step = 2 * kReach * spread / static_cast<float>(row.count - 1);
+  float total = 0, variance = 0;
+  for (int i = 0; i < row.count; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    const float x = (static_cast<float>(i) - 0.5f * static_cast<float>(row.count - 1)) * step;
+    row.angle[k] = x;
+    row.share[k] = std::exp(-0.5f * (x / spread) * (x / spread));
+    total += row.share[k];
+    variance += row.share[k] * x * x;
+  }
+  // Moved so that the variance is that of the cone, for all that the ends cut off.
+  const float stretch = spread * std::sqrt(total / variance);
+  for (int i = 0; i < row.count; ++i) {
+    row.angle[static_cast<std::size_t>(i)] *= stretch;
+    row.share[static_cast<std::size_t>(i)] /= total;
+  }
+  return row;
+}
 
 ConeLookUpPtr make_probes(const SharedMap& map, const ConeSamplerOptions& options) {
   if (options.probes < 1 || options.probes > kMostProbes) {

@@ -6,30 +6,12 @@
 #include "welkin/base/error.h"
 #include "welkin/lookup/chart_unfolding.h"
 #include "welkin/lookup/cone_filters.h"
+#include "welkin/lookup/gaussian_boxes.h"
 #include "welkin/lookup/summed_area.h"
 #include "welkin/lookup/texel_shape.h"
 
 namespace welkin {
 namespace {
-
-/// Half the width of a square in σ, and its share.
-struct Box {
-  double half, share;
-};
-
-/// Concentric squares whose sum is nearest to a circular Gaussian in the mean square, among those of its
-/// variance: Σ share = 1, Σ share·half²/3 = 1. What is left is 54, 33, 26 and 22 % of the Gaussian's root
-/// mean square.
-constexpr int kMostBoxes = 4;
-constexpr Box kBoxes[kMostBoxes][kMostBoxes] = {
-    {{1.7320508, 1}},
-    {{1.0989960602, 0.3577788525}, {1.9996079052, 0.6422211475}},
-    {{0.8807868681, 0.1795288894}, {1.4072848165, 0.3503298621}, {2.1468740739, 0.4701412485}},
-    {{0.7571883475, 0.1075439001},
-     {1.1621834231, 0.2127687337},
-     {1.5953065877, 0.3095057540},
-     {2.2435214612, 0.3701816123}},
-};
 
 Vec3d to_double(const Vec3<float>& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
@@ -64,7 +46,7 @@ class SummedAreaLookUp final : public ConeLookUp {
                  y = std::clamp(position.v, 0.0, 1.0) * size.height;
     std::array<double, kMaxChannels> sum{};
     for (int k = 0; k < boxes_; ++k) {
-      const Box& box = kBoxes[boxes_ - 1][k];
+      const GaussianBox& box = kGaussianBoxes[boxes_ - 1][k];
       add_box(static_cast<int>(position.chart), x, y, box.half * std::sqrt(texels.xx),
               box.half * std::sqrt(texels.yy), box.share, sum.data());
     }
