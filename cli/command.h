@@ -40,6 +40,7 @@ void add_bake(CLI::App& app);
 void add_sample(CLI::App& app);
 void add_importance(CLI::App& app);
 void add_diff(CLI::App& app);
+void add_assemble(CLI::App& app);
 void add_lights(CLI::App& app);
 void add_synth(CLI::App& app);
 void add_sh(CLI::App& app);

@@ -63,6 +63,7 @@ int run(int argc, char** argv) {
   cli::add_sample(app);
   cli::add_importance(app);
   cli::add_diff(app);
+  cli::add_assemble(app);
   cli::add_lights(app);
   cli::add_synth(app);
   cli::add_sh(app);

@@ -3,6 +3,9 @@
 /// @file
 /// All of the library (docs/library.md). Programs that mind their compile time include what they use instead.
 
+#include "welkin/assemble/assemble.h"
+#include "welkin/assemble/edges.h"
+#include "welkin/assemble/piece.h"
 #include "welkin/base/error.h"
 #include "welkin/base/export.h"
 #include "welkin/base/large_memory.h"

@@ -1,0 +1,150 @@
+#include "welkin/assemble/assemble.h"
+
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "assemble_pieces.h"
+#include "command.h"
+#include "welkin/base/number_text.h"
+#include "welkin/filter/resample.h"
+#include "welkin/sphere/convention.h"
+
+namespace welkin::cli {
+namespace {
+
+struct Assemble {
+  std::string out, to = "latlong", size, list, background, mix = "density", convention, format;
+  std::vector<std::string> panels;
+  bool alpha = false;
+  WriteFlags write;
+
+  void run() const;
+
+ private:
+  std::vector<PieceRequest> requests() const;
+  /// R G B, where the background is a colour.
+  std::optional<std::array<float, 3>> colour() const;
+};
+
+std::optional<std::array<float, 3>> Assemble::colour() const {
+  std::array<float, 3> colour{};
+  std::size_t from = 0;
+  for (int c = 0; c < 3; ++c) {
+    const std::size_t comma = c < 2 ? background.find(',', from) : background.size();
+    if (comma == std::string::npos) return std::nullopt;
+    const std::optional<double> value = parse_number(background.substr(from, comma - from));
+    if (!value) return std::nullopt;
+    colour[static_cast<std::size_t>(c)] = static_cast<float>(*value);
+    from = comma + 1;
+  }
+  return colour;
+}
+
+std::vector<PieceRequest> Assemble::requests() const {
+  std::vector<PieceRequest> all;
+  if (!list.empty()) all = read_piece_list(list);
+  for (const std::string& text : panels) all.push_back(parse_piece("--panel", text));
+  if (all.empty()) throw UsageError("give at least one picture, with --panel or --list");
+  if (!background.empty() && !colour()) {
+    PieceRequest backdrop = parse_piece("--background", background);
+    backdrop.kind = PieceRequest::Kind::backdrop;
+    all.push_back(std::move(backdrop));
+  }
+  for (const PieceRequest& each : all) check_piece(each);
+  return all;
+}
+
+/// As many texels per steradian as the finest of the pieces.
+ChartSize size_for(const std::vector<Piece>& pieces, const sphere::AnyParameterization& parameterization) {
+  ChartSize size;
+  for (const Piece& piece : pieces) {
+    const ChartSize of_piece = default_chart_size(piece.map, parameterization);
+    if (piece.layer != kBackdrop && of_piece.width > size.width) size = of_piece;
+  }
+  return size;
+}
+
+void print_report(const std::vector<Piece>& pieces, const Assembly& made, const std::string& behind) {
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (pieces[k].layer != kBackdrop)
+      fmt::print("{:<24} {:6.2f} %\n", printable(pieces[k].name), 100 * made.shown_by[k]);
+  }
+  fmt::print("{:<24} {:6.2f} %; {:.2f} % {}\n", "together", 100 * made.shown, 100 * (1 - made.shown), behind);
+}
+
+void Assemble::run() const {
+  WriteMapOptions write_options = write.parse();
+  write_options.convention = convention;
+  if (!convention.empty()) parse_option("--convention", [&] { return convention_from_name(convention); });
+  MapShape shape = parse_option("--to", [&] { return parse_map_shape_for(out, to); });
+  fit_to_convention(out, convention, shape);
+  check_output(out, shape, write);
+  if (!size.empty()) parse_chart_size("--size", size, shape.parameterization);
+  const std::vector<PieceRequest> asked = requests();
+  if (alpha && colour()) throw UsageError("--alpha: says what isn't covered, and --background covers it");
+
+  std::vector<Piece> pieces;
+  for (const PieceRequest& each : asked) pieces.push_back(read_piece(each));
+  const ChartSize chart = size.empty() ? size_for(pieces, shape.parameterization)
+                                       : parse_chart_size("--size", size, shape.parameterization);
+  check_output_size(chart, shape, write);
+  shape = for_chart_size(shape, chart);
+  MapFrame frame(shape.parameterization, chart);
+  if (!convention.empty())
+    frame.orientation = orientation_for(convention_from_name(convention), shape.parameterization);
+  AssembleOptions options;
+  options.fill = colour();
+  options.alpha = alpha;
+  options.by_density = mix == "density";
+  options.monitor = progress_monitor("assemble");
+  Assembly made = assemble(pieces, frame, options);
+  end_progress();
+  fit_channels_to(made.map, out, write_options);
+  report_losses(out, write_map(out, made.map, shape.layout, write_options));
+  if (format.empty())
+    print_report(pieces, made, background.empty() ? "no picture shows" : "are of the background");
+}
+
+}  // namespace
+
+void add_assemble(CLI::App& app) {
+  auto assemble = std::make_shared<Assemble>();
+  CLI::App* command = app.add_subcommand("assemble", "Make a world of pictures that each show a part of it");
+  command
+      ->add_option("OUT", assemble->out,
+                   "Map to write; its extension names the format; - is standard output, see --format")
+      ->required();
+  command->add_option(
+      "--panel", assemble->panels,
+      "A picture: FILE,fov=DEGREES[,KEY=VALUE]…, its horizontal field of view; yaw, pitch and "
+      "roll say where it looks, feather over how many degrees its edges fade, layer which "
+      "pictures it lies over, exposure by how many stops it is brightened; "
+      "as=fisheye-equidistant,fov=180 that it isn't flat");
+  command->add_option(
+      "--list", assemble->list,
+      "JSON file that lists pictures: {\"panels\": [{\"file\": …, \"fov\": …, \"yaw\": …}, …]}");
+  command->add_option("--background", assemble->background,
+                      "What is behind: R,G,B, or a map: FILE[,KEY=VALUE]… Default: black");
+  command->add_flag("--alpha", assemble->alpha, "Write A, how much is covered");
+  command
+      ->add_option("--mix", assemble->mix,
+                   "How pictures that overlap are weighted: density (by texels per steradian, so that the "
+                   "sharper prevails), even")
+      ->check(CLI::IsMember({"density", "even"}))
+      ->capture_default_str();
+  command->add_option("--to", assemble->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")
+      ->capture_default_str();
+  command->add_option("--size", assemble->size,
+                      "Size of a chart in texels: N across, or WxH. Default: as fine as the finest picture");
+  command->add_option("--convention,--to-convention", assemble->convention,
+                      "World of the output: three.js, blender…");
+  assemble->write.add(*command);
+  add_format(*command, assemble->format);
+  command->callback([assemble] {
+    assemble->out = output_path(assemble->out, assemble->format);
+    assemble->run();
+  });
+}
+
+}  // namespace welkin::cli

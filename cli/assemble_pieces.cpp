@@ -1,0 +1,198 @@
+#include "assemble_pieces.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "welkin/base/listed.h"
+#include "welkin/base/number_text.h"
+
+namespace welkin::cli {
+namespace {
+
+using nlohmann::json;
+
+/// What the settings of a kind may be, besides the parameters of a panel's shape.
+std::vector<std::string> known_settings(PieceRequest::Kind kind) {
+  if (kind == PieceRequest::Kind::backdrop) return {"as", "yaw", "pitch", "roll", "exposure", "colour"};
+  return {"as", "fov", "yaw", "pitch", "roll", "feather", "layer", "exposure", "colour"};
+}
+
+/// The settings of one picture, by name.
+class Settings {
+ public:
+  explicit Settings(const PieceRequest& request) : request_(request) {}
+
+  std::optional<std::string> text(const std::string& key) const {
+    const auto at = request_.settings.find(key);
+    if (at == request_.settings.end()) return std::nullopt;
+    return at->second;
+  }
+  std::optional<double> number(const std::string& key) const {
+    const std::optional<std::string> value = text(key);
+    if (!value) return std::nullopt;
+    const std::optional<double> parsed = parse_number(*value);
+    if (!parsed || !std::isfinite(*parsed))
+      refuse(fmt::format("{}: '{}' is not a number", key, printable(*value)));
+    return parsed;
+  }
+  double number_or(const std::string& key, double otherwise) const { return number(key).value_or(otherwise); }
+
+  [[noreturn]] void refuse(const std::string& cause) const {
+    throw UsageError(printable(request_.file) + ": " + cause);
+  }
+
+ private:
+  const PieceRequest& request_;
+};
+
+bool is_flat(const PieceRequest& request) {
+  return request.kind == PieceRequest::Kind::panel && !request.settings.contains("as");
+}
+
+/// The shape of a picture that isn't flat: `as`, and the settings that are its parameters. None: as the file
+/// declares.
+std::optional<std::string> shape_of(const PieceRequest& request) {
+  const auto as = request.settings.find("as");
+  if (as == request.settings.end()) return std::nullopt;
+  std::string shape = as->second;
+  const MapShape plain = parse_map_shape(shape);
+  for (const Parameter& each : plain.parameterization.parameters()) {
+    const auto given = request.settings.find(each.name);
+    if (given != request.settings.end()) shape += "," + each.name + "=" + given->second;
+  }
+  parse_map_shape(shape);
+  return shape;
+}
+
+PanelOptions panel_options(const PieceRequest& request) {
+  const Settings settings(request);
+  PanelOptions options;
+  options.aim = {settings.number_or("yaw", 0), settings.number_or("pitch", 0), settings.number_or("roll", 0)};
+  options.feather = settings.number_or("feather", 0);
+  if (!(options.feather >= 0 && options.feather <= 90))
+    settings.refuse("feather: is 0 to 90 degrees inside the picture's edges");
+  const double layer = settings.number_or("layer", 0);
+  if (layer != std::floor(layer) || std::fabs(layer) > 1000)
+    settings.refuse("layer: is a whole number of -1000 to 1000");
+  options.layer = request.kind == PieceRequest::Kind::backdrop ? kBackdrop : static_cast<int>(layer);
+  const double exposure = settings.number_or("exposure", 0);
+  if (std::fabs(exposure) > 100) settings.refuse("exposure: is -100 to 100 stops");
+  options.gain = std::exp2(exposure);
+  return options;
+}
+
+io::Colour colour_of(const PieceRequest& request) {
+  const Settings settings(request);
+  const std::string name = settings.text("colour").value_or("auto");
+  if (name == "auto") return io::Colour::automatic;
+  if (name == "linear") return io::Colour::linear;
+  if (name == "srgb") return io::Colour::srgb;
+  settings.refuse("colour: is auto, linear or srgb");
+}
+
+}  // namespace
+
+PieceRequest parse_piece(std::string_view option, const std::string& text) {
+  PieceRequest request;
+  request.file = text;
+  // From the end, as names of files may have commas too.
+  while (true) {
+    const std::size_t comma = request.file.rfind(',');
+    if (comma == std::string::npos) break;
+    const std::string last = request.file.substr(comma + 1);
+    const std::size_t equals = last.find('=');
+    if (equals == std::string::npos || equals == 0) break;
+    const std::string key = last.substr(0, equals);
+    if (!request.settings.emplace(key, last.substr(equals + 1)).second)
+      throw UsageError(fmt::format("{}: '{}' is given twice", option, printable(key)));
+    request.file.resize(comma);
+  }
+  if (request.file.empty())
+    throw UsageError(fmt::format("{}: '{}' names no file: write FILE,KEY=VALUE…", option, printable(text)));
+  return request;
+}
+
+std::vector<PieceRequest> read_piece_list(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw Error(ErrorKind::not_found, path, "cannot be read");
+  const auto damaged = [&](const std::string& cause) { return Error(ErrorKind::damaged, path, cause); };
+  const json all = json::parse(in, nullptr, false);
+  if (!all.is_object()) throw damaged("is not a JSON object with a list of \"panels\"");
+  std::vector<PieceRequest> requests;
+  for (const auto& [kind, list] : all.items()) {
+    if (kind != "panels")
+      throw damaged(unknown_name("list", printable(kind), std::vector<std::string>{"panels"}));
+    if (!list.is_array()) throw damaged("\"" + kind + "\" is not a list");
+    for (const json& each : list) {
+      if (!each.is_object() || !each.contains("file") || !each["file"].is_string())
+        throw damaged(fmt::format("entry {} of \"{}\" has no \"file\"", requests.size() + 1, kind));
+      PieceRequest request;
+      for (const auto& [key, value] : each.items()) {
+        if (key == "file") continue;
+        if (value.is_number()) {
+          request.settings[key] = number_text(value.get<double>());
+        } else if (value.is_string()) {
+          request.settings[key] = value.get<std::string>();
+        } else {
+          throw damaged(fmt::format("\"{}\" of entry {} is neither a number nor a text", printable(key),
+                                    requests.size() + 1));
+        }
+      }
+      request.file = (std::filesystem::path(path).parent_path() / each["file"].get<std::string>()).string();
+      requests.push_back(std::move(request));
+    }
+  }
+  return requests;
+}
+
+void check_piece(const PieceRequest& request) {
+  const Settings settings(request);
+  std::vector<std::string> known = known_settings(request.kind);
+  if (const auto as = settings.text("as")) {
+    const MapShape shape =
+        parse_option(printable(request.file) + ": as", [&] { return parse_map_shape(*as); });
+    for (const Parameter& each : shape.parameterization.parameters()) known.push_back(each.name);
+    if (shape.parameterization.parameters().empty()) std::erase(known, "fov");
+  }
+  for (const auto& [key, value] : request.settings) {
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      settings.refuse(unknown_name("setting", printable(key), known));
+  }
+  parse_option(printable(request.file), [&] { return shape_of(request); });
+  panel_options(request);
+  colour_of(request);
+  if (!is_flat(request)) return;
+  const std::optional<double> fov = settings.number("fov");
+  if (!fov)
+    settings.refuse(
+        "say its horizontal field of view, fov=DEGREES, or what it is if it isn't flat: "
+        "as=fisheye-equidistant…");
+  if (!(*fov >= 0.001 && *fov <= 179))
+    settings.refuse(fmt::format("fov: a flat picture's is 0.001 to 179 degrees, not {}", number_text(*fov)));
+}
+
+Piece read_piece(const PieceRequest& request) {
+  ReadMapOptions how;
+  how.image.colour = colour_of(request);
+  how.shape = is_flat(request) ? std::optional<std::string>("latlong") : shape_of(request);
+  how.orientation = Matrix3{};
+  if (request.kind == PieceRequest::Kind::backdrop && !how.shape) how.orientation.reset();
+  MapReader reader(request.file, how);
+  print_warnings(request.file, reader.info().image.warnings);
+  Map map = reader.read();
+  const PanelOptions options = panel_options(request);
+  if (is_flat(request))
+    return make_flat_panel(request.file, std::move(map), Settings(request).number_or("fov", 0), options);
+  const Matrix3 declared = map.orientation;
+  Piece piece = make_panel(request.file, std::move(map), options);
+  piece.map.orientation = declared * piece.map.orientation;
+  return piece;
+}
+
+}  // namespace welkin::cli

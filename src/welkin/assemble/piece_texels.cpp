@@ -1,0 +1,115 @@
+#include "welkin/assemble/piece_texels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "welkin/math/angles.h"
+
+namespace welkin {
+namespace {
+
+int tiles_along(int texels) {
+  return (texels + Tile::kSide - 1) / Tile::kSide;
+}
+
+/// How far texels reach from their centres, by the distances between these.
+double reach_of(const Tile& tile) {
+  if (tile.width < 2 || tile.height < 2) return kPi;
+  double farthest = 0;
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y * tile.width + x);
+      const std::size_t row = static_cast<std::size_t>(tile.width);
+      if (x > 0) farthest = std::max(farthest, angle_between(tile.directions[i - 1], tile.directions[i]));
+      if (y > 0) farthest = std::max(farthest, angle_between(tile.directions[i - row], tile.directions[i]));
+    }
+  }
+  return farthest;
+}
+
+}  // namespace
+
+Tiles::Tiles(const MapFrame& frame)
+    : frame_(frame),
+      to_world_(transpose(frame.orientation)),
+      columns_(tiles_along(frame.size.width)),
+      rows_(tiles_along(frame.size.height)) {}
+
+int Tiles::count() const {
+  return frame_.parameterization.charts() * columns_ * rows_;
+}
+
+Tile Tiles::at(int number) const {
+  Tile tile;
+  tile.chart = number / (columns_ * rows_);
+  tile.x = number % columns_ * Tile::kSide;
+  tile.y = number / columns_ % rows_ * Tile::kSide;
+  tile.width = std::min(Tile::kSide, frame_.size.width - tile.x);
+  tile.height = std::min(Tile::kSide, frame_.size.height - tile.y);
+  tile.directions.reserve(static_cast<std::size_t>(tile.count()));
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const double u = (tile.x + x + 0.5) / frame_.size.width, v = (tile.y + y + 0.5) / frame_.size.height;
+      tile.directions.push_back(to_world_ * frame_.parameterization.to_sphere(tile.chart, u, v));
+    }
+  }
+  tile.texel = reach_of(tile);
+  return tile;
+}
+
+PieceTexels::PieceTexels(const Piece& piece, const MapFrame& frame)
+    : piece_(piece), maker_(make_texels(piece.map, frame, {})) {}
+
+bool PieceTexels::make(const Tile& tile, float* colours, double* feathers) const {
+  bool any = false, all = true;
+  for (int i = 0; i < tile.count(); ++i) {
+    const Vec3d d = piece_.map.orientation * tile.directions[static_cast<std::size_t>(i)];
+    double depth = kPi, feather = 1;
+    for (const Cap& cap : piece_.edges) {
+      const double inside = cap.depth(d);
+      depth = std::min(depth, inside);
+      if (piece_.feather > 0) feather *= smooth_step(0, piece_.feather, inside);
+    }
+    const bool seen = depth > -tile.texel;
+    any = any || seen;
+    all = all && seen;
+    // −1: not even a part of the texel.
+    feathers[i] = seen ? feather : -1;
+  }
+  if (!any) return false;
+  const ImageView<float> out{colours, tile.width, tile.height, 4, tile.width * std::ptrdiff_t{4}};
+  ChartPart part;
+  part.chart = tile.chart;
+  part.walk.start_x = tile.x;
+  part.walk.start_y = tile.y;
+  if (all) {
+    maker_->make(part, out);
+  } else {
+    // Texels that see nothing of it are slow to make: the filter looks for it in every part of them.
+    std::fill_n(colours, 4 * tile.count(), 0.0f);
+    for (int y = 0; y < tile.height; ++y) {
+      const double* row = feathers + y * tile.width;
+      const auto seen = [](double feather) { return feather >= 0; };
+      const int from = static_cast<int>(std::find_if(row, row + tile.width, seen) - row);
+      int to = tile.width;
+      while (to > from && !seen(row[to - 1])) --to;
+      if (from < to) maker_->make(part.from(from, y), out.part(from, y, to - from, 1));
+    }
+  }
+  const float gain = static_cast<float>(piece_.gain);
+  for (int i = 0; i < tile.count(); ++i) {
+    for (int c = 0; c < 3; ++c) colours[4 * i + c] *= gain;
+    feathers[i] = std::max(feathers[i], 0.0);
+  }
+  return true;
+}
+
+double PieceTexels::texels_per_steradian(const Vec3d& direction) const {
+  const auto& p = piece_.map.parameterization;
+  const auto at = p.from_sphere(piece_.map.orientation * direction);
+  const double density =
+      p.solid_angle_density(static_cast<int>(at.chart), clamp(at.u, 0.0, 1.0), clamp(at.v, 0.0, 1.0));
+  return static_cast<double>(piece_.map.width()) * piece_.map.height() / std::max(density, 1e-12);
+}
+
+}  // namespace welkin

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "welkin/assemble/piece.h"
+#include "welkin/filter/texel_maker.h"
+
+/// A piece as the texels of a frame see it. Internal to the room.
+namespace welkin {
+
+/// Some texels of a frame: a rectangle of a chart, and where they lie in the world.
+struct Tile {
+  /// A side at most. Filter::automatic makes blocks of so many texels together.
+  static constexpr int kSide = 24;
+
+  int chart = 0, x = 0, y = 0, width = 0, height = 0;
+  std::vector<Vec3d> directions;  ///< of the texels' centres, row by row
+  double texel = 0;               ///< radians: no farther from a texel's centre does it reach
+
+  int count() const { return width * height; }
+};
+
+/// The tiles of a frame, by number.
+class Tiles {
+ public:
+  explicit Tiles(const MapFrame& frame);
+  int count() const;
+  Tile at(int number) const;
+
+ private:
+  const MapFrame frame_;
+  const Matrix3 to_world_;
+  int columns_, rows_;
+};
+
+class PieceTexels {
+ public:
+  /// The piece outlives this.
+  PieceTexels(const Piece& piece, const MapFrame& frame);
+
+  /// What the texels of a tile see of it: the means of its R G B A, gain applied, and of each its feather.
+  /// Both have room for Tile::count() texels. False, and nothing is written, where it shows none of them.
+  bool make(const Tile& tile, float* colours, double* feathers) const;
+
+  /// Along a direction of the world that it shows.
+  double texels_per_steradian(const Vec3d& direction) const;
+
+ private:
+  const Piece& piece_;
+  std::unique_ptr<TexelMaker> maker_;
+};
+
+}  // namespace welkin

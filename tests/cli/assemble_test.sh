@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# `welkin assemble`: worlds from flat pictures, from discs, over backgrounds; and what it refuses.
+. "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
+
+must synth axes axes.exr --size 512
+must convert axes.exr face_%s.exr --to cube:faces --size 192
+
+# The faces of a cube, as pictures with a direction each, are the world again.
+faces=(--panel face_pz.exr,fov=90 --panel face_nx.exr,fov=90,yaw=90 --panel face_nz.exr,fov=90,yaw=180
+  --panel face_px.exr,fov=90,yaw=-90 --panel face_py.exr,fov=90,pitch=90 --panel face_ny.exr,fov=90,pitch=-90)
+matches '^together +(99\.9|100\.0). %; 0\.0. % no picture shows$' assemble world.exr "${faces[@]}" --size 512
+same axes.exr world.exr 0.06
+for axis in "${axes[@]}"; do near "$axis" "$(sample_along world.exr "$axis")" "${card_colour[$axis]}" 0.002; done
+
+# The same from a list, whose files are beside it.
+mkdir list
+for face in face_??.exr; do mv "$face" list; done
+cat >list/faces.json <<'JSON'
+{"panels": [{"file": "face_pz.exr", "fov": 90}, {"file": "face_nx.exr", "fov": 90, "yaw": 90},
+  {"file": "face_nz.exr", "fov": 90, "yaw": 180}, {"file": "face_px.exr", "fov": 90, "yaw": -90},
+  {"file": "face_py.exr", "fov": 90, "pitch": 90}, {"file": "face_ny.exr", "fov": 90, "pitch": -90}]}
+JSON
+must assemble listed.exr --list list/faces.json --size 512
+same world.exr listed.exr 0
+
+# Gaps are told, and filled.
+matches '^together +16\.6. %; 83\.3. % no picture shows$' assemble one.exr --panel list/face_pz.exr,fov=90
+near 'a gap' "$(sample_along one.exr 0,0,-1)" "0 0 0" 0
+matches 'are of the background$' assemble one.exr --panel list/face_pz.exr,fov=90 --background 1,2,3
+near 'a colour' "$(sample_along one.exr 0,0,-1)" "1 2 3" 0
+matches 'are of the background$' assemble one.exr --panel list/face_pz.exr,fov=90,exposure=1 --background axes.exr
+near 'a map' "$(sample_along one.exr 0,0,-1)" "${card_colour[0,0,-1]}" 0.002
+near 'brighter' "$(sample_along one.exr 0,0,1)" "0.4244 0.8466 1.4462" 0.004
+must assemble alpha.exr --panel list/face_pz.exr,fov=90 --alpha
+near 'alpha' "$(sample_along alpha.exr 0,0,1 0,0,-1 | cut -d' ' -f4 | tr '\n' ' ')" "1 0" 1e-5
+
+# A higher layer lies over a lower one; a fish-eye is a picture too.
+must convert axes.exr fish.exr --to fisheye-equidistant,fov=120 --size 256
+must assemble layers.exr --panel list/face_pz.exr,fov=90,layer=1 --panel fish.exr,as=fisheye-equidistant,fov=120,yaw=180
+near 'over' "$(sample_along layers.exr 0,0,1)" "${card_colour[0,0,1]}" 0.002
+near 'the fish-eye' "$(sample_along layers.exr 0,0,-1)" "${card_colour[0,0,1]}" 0.002
+
+# Any output, any thread count.
+must assemble half.exr --list list/faces.json --to half-cube
+must -j 1 assemble half1.exr --list list/faces.json --to half-cube
+same half.exr half1.exr 0
+
+refuses 2 'give at least one picture' assemble x.exr
+refuses 2 'say its horizontal field of view' assemble x.exr --panel list/face_pz.exr
+for fov in 0 180 -5 nan; do refuses 2 'fov: ' assemble x.exr --panel "list/face_pz.exr,fov=$fov"; done
+refuses 2 "unknown setting 'yav'; did you mean 'yaw'" assemble x.exr --panel list/face_pz.exr,fov=60,yav=3
+refuses 2 'feather: is 0 to 90' assemble x.exr --panel list/face_pz.exr,fov=60,feather=91
+refuses 2 "'fov' is given twice" assemble x.exr --panel list/face_pz.exr,fov=60,fov=61
+refuses 2 "unknown parameterization 'fishy'" assemble x.exr --panel list/face_pz.exr,as=fishy
+refuses 1 'nope.png: No such file' assemble x.exr --panel nope.png,fov=60
+refuses 2 '--alpha: ' assemble x.exr --panel list/face_pz.exr,fov=60 --alpha --background 0,0,0
+printf "[" >bad.json
+refuses 1 "bad.json: is not a JSON object" assemble x.exr --list bad.json
+printf '{"panels": [{"fov": 60}]}' >bad.json
+refuses 1 'entry 1 of "panels" has no "file"' assemble x.exr --list bad.json
+printf '{"panes": []}' >bad.json
+refuses 1 "unknown list 'panes'; did you mean 'panels'" assemble x.exr --list bad.json
+printf '{"panels": [{"file": "a.png", "fov": [1]}]}' >bad.json
+refuses 1 '"fov" of entry 1 is neither a number nor a text' assemble x.exr --list bad.json
+
+finish
