@@ -6,6 +6,7 @@
 
 #include "assemble_pieces.h"
 #include "command.h"
+#include "welkin/assemble/exposure.h"
 #include "welkin/base/number_text.h"
 #include "welkin/filter/resample.h"
 #include "welkin/sphere/convention.h"
@@ -13,10 +14,13 @@
 namespace welkin::cli {
 namespace {
 
+/// Of overlaps that are told: less of the sphere is a seam.
+constexpr double kLeastOverlap = 0.002;
+
 struct Assemble {
   std::string out, to = "latlong", size, list, background, mix = "density", convention, format;
-  std::vector<std::string> panels;
-  bool alpha = false;
+  std::vector<std::string> panels, balls;
+  bool alpha = false, match = false;
   WriteFlags write;
 
   void run() const;
@@ -45,7 +49,11 @@ std::vector<PieceRequest> Assemble::requests() const {
   std::vector<PieceRequest> all;
   if (!list.empty()) all = read_piece_list(list);
   for (const std::string& text : panels) all.push_back(parse_piece("--panel", text));
-  if (all.empty()) throw UsageError("give at least one picture, with --panel or --list");
+  for (const std::string& text : balls) {
+    all.push_back(parse_piece("--ball", text));
+    all.back().kind = PieceRequest::Kind::ball;
+  }
+  if (all.empty()) throw UsageError("give at least one picture, with --panel, --ball or --list");
   if (!background.empty() && !colour()) {
     PieceRequest backdrop = parse_piece("--background", background);
     backdrop.kind = PieceRequest::Kind::backdrop;
@@ -68,9 +76,21 @@ ChartSize size_for(const std::vector<Piece>& pieces, const sphere::AnyParameteri
 void print_report(const std::vector<Piece>& pieces, const Assembly& made, const std::string& behind) {
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     if (pieces[k].layer != kBackdrop)
-      fmt::print("{:<24} {:6.2f} %\n", printable(pieces[k].name), 100 * made.shown_by[k]);
+      fmt::print("{:<24} {:6.2f} %{}\n", printable(pieces[k].name), 100 * made.shown_by[k],
+                 pieces[k].gain != 1 ? fmt::format(", times {:.4f}", pieces[k].gain) : "");
   }
   fmt::print("{:<24} {:6.2f} %; {:.2f} % {}\n", "together", 100 * made.shown, 100 * (1 - made.shown), behind);
+}
+
+void print_overlaps(const std::vector<Piece>& pieces, const std::vector<Overlap>& overlaps) {
+  for (const Overlap& each : overlaps) {
+    if (each.share < kLeastOverlap) continue;
+    fmt::print(
+        "{} and {}: {:.1f} % of the sphere in both, differ by {:.2f} % (rel. RMSE), brightness by {:+.2f} "
+        "%\n",
+        printable(pieces[each.first].name), printable(pieces[each.second].name), 100 * each.share,
+        100 * each.error, 100 * (each.ratio - 1));
+  }
 }
 
 void Assemble::run() const {
@@ -85,7 +105,12 @@ void Assemble::run() const {
   if (alpha && colour()) throw UsageError("--alpha: says what isn't covered, and --background covers it");
 
   std::vector<Piece> pieces;
-  for (const PieceRequest& each : asked) pieces.push_back(read_piece(each));
+  std::vector<std::string> notes;
+  for (const PieceRequest& each : asked) {
+    ReadPiece read = read_piece(each);
+    pieces.push_back(std::move(read.piece));
+    if (!read.note.empty()) notes.push_back(std::move(read.note));
+  }
   const ChartSize chart = size.empty() ? size_for(pieces, shape.parameterization)
                                        : parse_chart_size("--size", size, shape.parameterization);
   check_output_size(chart, shape, write);
@@ -93,6 +118,8 @@ void Assemble::run() const {
   MapFrame frame(shape.parameterization, chart);
   if (!convention.empty())
     frame.orientation = orientation_for(convention_from_name(convention), shape.parameterization);
+  if (match) match_exposures(pieces);
+  const std::vector<Overlap> overlaps = compare_overlaps(pieces);
   AssembleOptions options;
   options.fill = colour();
   options.alpha = alpha;
@@ -102,8 +129,10 @@ void Assemble::run() const {
   end_progress();
   fit_channels_to(made.map, out, write_options);
   report_losses(out, write_map(out, made.map, shape.layout, write_options));
-  if (format.empty())
-    print_report(pieces, made, background.empty() ? "no picture shows" : "are of the background");
+  if (!format.empty()) return;
+  for (const std::string& note : notes) fmt::print("{}\n", note);
+  print_report(pieces, made, background.empty() ? "no picture shows" : "are of the background");
+  print_overlaps(pieces, overlaps);
 }
 
 }  // namespace

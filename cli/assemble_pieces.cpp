@@ -9,8 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "welkin/base/listed.h"
+#include "welkin/assemble/ball_photograph.h"
 #include "welkin/base/number_text.h"
+#include "welkin/math/angles.h"
 
 namespace welkin::cli {
 namespace {
@@ -19,8 +20,14 @@ using nlohmann::json;
 
 /// What the settings of a kind may be, besides the parameters of a panel's shape.
 std::vector<std::string> known_settings(PieceRequest::Kind kind) {
-  if (kind == PieceRequest::Kind::backdrop) return {"as", "yaw", "pitch", "roll", "exposure", "colour"};
-  return {"as", "fov", "yaw", "pitch", "roll", "feather", "layer", "exposure", "colour"};
+  std::vector<std::string> known{"yaw", "pitch", "roll", "exposure", "colour"};
+  const auto add = [&](std::initializer_list<const char*> more) {
+    known.insert(known.end(), more.begin(), more.end());
+  };
+  if (kind != PieceRequest::Kind::backdrop) add({"fov", "feather", "layer"});
+  if (kind == PieceRequest::Kind::ball) add({"distance", "x", "y", "radius", "camera", "rim"});
+  if (kind != PieceRequest::Kind::ball) add({"as"});
+  return known;
 }
 
 /// The settings of one picture, by name.
@@ -87,6 +94,30 @@ PanelOptions panel_options(const PieceRequest& request) {
   return options;
 }
 
+BallPhotographOptions ball_options(const PieceRequest& request) {
+  const Settings settings(request);
+  const PanelOptions common = panel_options(request);
+  BallPhotographOptions options;
+  options.aim = common.aim;
+  options.layer = common.layer;
+  options.gain = common.gain;
+  options.feather = settings.number_or("feather", options.feather);
+  options.distance = settings.number_or("distance", options.distance);
+  options.fov = settings.number("fov");
+  options.camera = settings.number_or("camera", 0);
+  options.rim = settings.number_or("rim", options.rim);
+  if (options.fov && settings.text("distance"))
+    settings.refuse("distance: follows from fov; give one of them");
+  const int given =
+      settings.text("x").has_value() + settings.text("y").has_value() + settings.text("radius").has_value();
+  if (given != 0 && given != 3)
+    settings.refuse("x, y and radius say together where the ball is: give all three");
+  if (given == 3)
+    options.circle =
+        BallCircle{settings.number_or("x", 0), settings.number_or("y", 0), settings.number_or("radius", 0)};
+  return options;
+}
+
 io::Colour colour_of(const PieceRequest& request) {
   const Settings settings(request);
   const std::string name = settings.text("colour").value_or("auto");
@@ -133,6 +164,7 @@ std::vector<PieceRequest> read_piece_list(const std::string& path) {
       if (!each.is_object() || !each.contains("file") || !each["file"].is_string())
         throw damaged(fmt::format("entry {} of \"{}\" has no \"file\"", requests.size() + 1, kind));
       PieceRequest request;
+      if (kind == "balls") request.kind = PieceRequest::Kind::ball;
       for (const auto& [key, value] : each.items()) {
         if (key == "file") continue;
         if (value.is_number()) {
@@ -167,6 +199,7 @@ void check_piece(const PieceRequest& request) {
   parse_option(printable(request.file), [&] { return shape_of(request); });
   panel_options(request);
   colour_of(request);
+  if (request.kind == PieceRequest::Kind::ball) ball_options(request);
   if (!is_flat(request)) return;
   const std::optional<double> fov = settings.number("fov");
   if (!fov)
@@ -177,22 +210,32 @@ void check_piece(const PieceRequest& request) {
     settings.refuse(fmt::format("fov: a flat picture's is 0.001 to 179 degrees, not {}", number_text(*fov)));
 }
 
-Piece read_piece(const PieceRequest& request) {
+ReadPiece read_piece(const PieceRequest& request) {
+  const bool is_ball = request.kind == PieceRequest::Kind::ball;
   ReadMapOptions how;
   how.image.colour = colour_of(request);
-  how.shape = is_flat(request) ? std::optional<std::string>("latlong") : shape_of(request);
-  how.orientation = Matrix3{};
-  if (request.kind == PieceRequest::Kind::backdrop && !how.shape) how.orientation.reset();
+  // Whatever shape a picture of one chart is read as, its pixels are the same.
+  how.shape = is_flat(request) || is_ball ? std::optional<std::string>("latlong") : shape_of(request);
+  if (request.kind == PieceRequest::Kind::panel || how.shape) how.orientation = Matrix3{};
   MapReader reader(request.file, how);
   print_warnings(request.file, reader.info().image.warnings);
   Map map = reader.read();
+  if (is_ball) {
+    BallPiece ball = make_ball_piece(request.file, std::move(map), ball_options(request));
+    std::string note = fmt::format(
+        "{}: the camera {:.4g} ball radii away, hidden behind the ball a cone of {:.2f}°, "
+        "with the rim that is left out {:.2f}°",
+        printable(request.file), ball.distance, ball.blind / kDegree, ball.left_out / kDegree);
+    return {std::move(ball.piece), std::move(note)};
+  }
   const PanelOptions options = panel_options(request);
   if (is_flat(request))
-    return make_flat_panel(request.file, std::move(map), Settings(request).number_or("fov", 0), options);
+    return {make_flat_panel(request.file, std::move(map), Settings(request).number_or("fov", 0), options),
+            ""};
   const Matrix3 declared = map.orientation;
   Piece piece = make_panel(request.file, std::move(map), options);
   piece.map.orientation = declared * piece.map.orientation;
-  return piece;
+  return {std::move(piece), ""};
 }
 
 }  // namespace welkin::cli

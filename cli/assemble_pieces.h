@@ -13,7 +13,7 @@ namespace welkin::cli {
 
 /// A picture as it is asked for: `FILE[,KEY=VALUE]…`, or an object of a list.
 struct PieceRequest {
-  enum class Kind { panel, backdrop };
+  enum class Kind { panel, ball, backdrop };
   Kind kind = Kind::panel;
   std::string file;
   std::map<std::string, std::string> settings;
@@ -22,14 +22,20 @@ struct PieceRequest {
 /// Of an option's value. Throws UsageError, naming the option.
 PieceRequest parse_piece(std::string_view option, const std::string& text);
 
-/// Of a JSON file: {"panels": [{"file": "left.png", "fov": 60, "yaw": 40}, …]}. Files are beside it. Throws
-/// Error about the file.
+/// Of a JSON file: {"panels": [{"file": "left.png", "fov": 60, "yaw": 40}, …], "balls": […]}. Files are
+/// beside it. Throws Error about the file.
 std::vector<PieceRequest> read_piece_list(const std::string& path);
 
 /// Throws UsageError for settings that there aren't or that aren't numbers, before any picture is read.
 void check_piece(const PieceRequest& request);
 
+/// A picture that was read.
+struct ReadPiece {
+  Piece piece;
+  std::string note;  ///< what there is to tell of it
+};
+
 /// Opens and reads the picture. Throws Error.
-Piece read_piece(const PieceRequest& request);
+ReadPiece read_piece(const PieceRequest& request);
 
 }  // namespace welkin::cli

@@ -4,7 +4,9 @@
 /// All of the library (docs/library.md). Programs that mind their compile time include what they use instead.
 
 #include "welkin/assemble/assemble.h"
+#include "welkin/assemble/ball_photograph.h"
 #include "welkin/assemble/edges.h"
+#include "welkin/assemble/exposure.h"
 #include "welkin/assemble/piece.h"
 #include "welkin/base/error.h"
 #include "welkin/base/export.h"

@@ -70,10 +70,12 @@ bool PieceTexels::make(const Tile& tile, float* colours, double* feathers) const
       depth = std::min(depth, inside);
       if (piece_.feather > 0) feather *= smooth_step(0, piece_.feather, inside);
     }
-    const bool seen = depth > -tile.texel;
+    // At an edge of the map part of a texel may be seen; an edge inside it leaves out what has its centre
+    // beyond.
+    const bool seen = depth > 0 || (depth > -tile.texel && !piece_.map.parameterization.covers(d));
     any = any || seen;
     all = all && seen;
-    // −1: not even a part of the texel.
+    // −1: nothing is seen of it.
     feathers[i] = seen ? feather : -1;
   }
   if (!any) return false;
@@ -99,7 +101,10 @@ bool PieceTexels::make(const Tile& tile, float* colours, double* feathers) const
   const float gain = static_cast<float>(piece_.gain);
   for (int i = 0; i < tile.count(); ++i) {
     for (int c = 0; c < 3; ++c) colours[4 * i + c] *= gain;
-    feathers[i] = std::max(feathers[i], 0.0);
+    if (feathers[i] < 0) {
+      std::fill_n(colours + 4 * i, 4, 0.0f);
+      feathers[i] = 0;
+    }
   }
   return true;
 }
