@@ -2,11 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "assemble_pieces.h"
 #include "command.h"
 #include "welkin/assemble/exposure.h"
+#include "welkin/assemble/ground.h"
 #include "welkin/base/number_text.h"
 #include "welkin/filter/resample.h"
 #include "welkin/sphere/convention.h"
@@ -18,7 +21,7 @@ namespace {
 constexpr double kLeastOverlap = 0.002;
 
 struct Assemble {
-  std::string out, to = "latlong", size, list, background, mix = "density", convention, format;
+  std::string out, to = "latlong", size, list, background, ground, mix = "density", convention, format;
   std::vector<std::string> panels, balls;
   bool alpha = false, match = false;
   WriteFlags write;
@@ -74,12 +77,15 @@ ChartSize size_for(const std::vector<Piece>& pieces, const sphere::AnyParameteri
 }
 
 void print_report(const std::vector<Piece>& pieces, const Assembly& made, const std::string& behind) {
+  std::size_t widest = std::string_view("together").size();
+  for (const Piece& piece : pieces) widest = std::max(widest, printable(piece.name).size());
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     if (pieces[k].layer != kBackdrop)
-      fmt::print("{:<24} {:6.2f} %{}\n", printable(pieces[k].name), 100 * made.shown_by[k],
-                 pieces[k].gain != 1 ? fmt::format(", times {:.4f}", pieces[k].gain) : "");
+      fmt::print("{:<{}} {:6.2f} %{}\n", printable(pieces[k].name), widest, 100 * made.shown_by[k],
+                 std::fabs(pieces[k].gain - 1) > 1e-6 ? fmt::format(", times {:.4f}", pieces[k].gain) : "");
   }
-  fmt::print("{:<24} {:6.2f} %; {:.2f} % {}\n", "together", 100 * made.shown, 100 * (1 - made.shown), behind);
+  fmt::print("{:<{}} {:6.2f} %; {:.2f} % {}\n", "together", widest, 100 * made.shown, 100 * (1 - made.shown),
+             behind);
 }
 
 void print_overlaps(const std::vector<Piece>& pieces, const std::vector<Overlap>& overlaps) {
@@ -120,6 +126,7 @@ void Assemble::run() const {
     frame.orientation = orientation_for(convention_from_name(convention), shape.parameterization);
   if (match) match_exposures(pieces);
   const std::vector<Overlap> overlaps = compare_overlaps(pieces);
+  if (!ground.empty()) add_ground(pieces, ground == "mirror" ? Ground::mirrored : Ground::stretched);
   AssembleOptions options;
   options.fill = colour();
   options.alpha = alpha;
@@ -151,10 +158,27 @@ void add_assemble(CLI::App& app) {
       "pictures it lies over, exposure by how many stops it is brightened; "
       "as=fisheye-equidistant,fov=180 that it isn't flat");
   command->add_option(
-      "--list", assemble->list,
-      "JSON file that lists pictures: {\"panels\": [{\"file\": …, \"fov\": …, \"yaw\": …}, …]}");
+      "--ball", assemble->balls,
+      "A photograph of a mirror ball: FILE[,KEY=VALUE]…; yaw, pitch and roll say where the "
+      "camera looked, distance how many ball radii it was from the ball's centre (or fov, the "
+      "photograph's horizontal field of view), x, y and radius where the ball is, in texels "
+      "(without them it touches the edges), camera the half angle, degrees, that the camera "
+      "hides; also rim, feather, layer, exposure");
+  command->add_option("--list", assemble->list,
+                      "JSON file that lists pictures: {\"panels\": [{\"file\": …, \"fov\": …, \"yaw\": …}, "
+                      "…], \"balls\": […]}");
+  command->add_flag(
+      "--match", assemble->match,
+      "Brighten or darken pictures so that they agree where they overlap; the first stays as it "
+      "is");
   command->add_option("--background", assemble->background,
                       "What is behind: R,G,B, or a map: FILE[,KEY=VALUE]… Default: black");
+  command
+      ->add_option(
+          "--ground", assemble->ground,
+          "What is made of a sky below its horizon: mirror (the sky upside down), stretch (the row of "
+          "texels on the horizon). Default: the background")
+      ->check(CLI::IsMember({"mirror", "stretch"}));
   command->add_flag("--alpha", assemble->alpha, "Write A, how much is covered");
   command
       ->add_option("--mix", assemble->mix,

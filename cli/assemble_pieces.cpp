@@ -24,8 +24,8 @@ std::vector<std::string> known_settings(PieceRequest::Kind kind) {
   const auto add = [&](std::initializer_list<const char*> more) {
     known.insert(known.end(), more.begin(), more.end());
   };
-  if (kind != PieceRequest::Kind::backdrop) add({"fov", "feather", "layer"});
-  if (kind == PieceRequest::Kind::ball) add({"distance", "x", "y", "radius", "camera", "rim"});
+  if (kind != PieceRequest::Kind::backdrop) add({"fov", "feather", "layer", "x", "y", "radius"});
+  if (kind == PieceRequest::Kind::ball) add({"distance", "camera", "rim"});
   if (kind != PieceRequest::Kind::ball) add({"as"});
   return known;
 }
@@ -66,7 +66,7 @@ bool is_flat(const PieceRequest& request) {
 /// declares.
 std::optional<std::string> shape_of(const PieceRequest& request) {
   const auto as = request.settings.find("as");
-  if (as == request.settings.end()) return std::nullopt;
+  if (as == request.settings.end() || as->second == "auto") return std::nullopt;
   std::string shape = as->second;
   const MapShape plain = parse_map_shape(shape);
   for (const Parameter& each : plain.parameterization.parameters()) {
@@ -94,6 +94,15 @@ PanelOptions panel_options(const PieceRequest& request) {
   return options;
 }
 
+std::optional<PictureCircle> circle_of(const PieceRequest& request) {
+  const Settings settings(request);
+  const auto x = settings.number("x"), y = settings.number("y"), radius = settings.number("radius");
+  if (!x && !y && !radius) return std::nullopt;
+  if (!x || !y || !radius)
+    settings.refuse("x, y and radius say together where the circle is: give all three");
+  return PictureCircle{*x, *y, *radius};
+}
+
 BallPhotographOptions ball_options(const PieceRequest& request) {
   const Settings settings(request);
   const PanelOptions common = panel_options(request);
@@ -108,13 +117,7 @@ BallPhotographOptions ball_options(const PieceRequest& request) {
   options.rim = settings.number_or("rim", options.rim);
   if (options.fov && settings.text("distance"))
     settings.refuse("distance: follows from fov; give one of them");
-  const int given =
-      settings.text("x").has_value() + settings.text("y").has_value() + settings.text("radius").has_value();
-  if (given != 0 && given != 3)
-    settings.refuse("x, y and radius say together where the ball is: give all three");
-  if (given == 3)
-    options.circle =
-        BallCircle{settings.number_or("x", 0), settings.number_or("y", 0), settings.number_or("radius", 0)};
+  options.circle = circle_of(request);
   return options;
 }
 
@@ -186,7 +189,7 @@ std::vector<PieceRequest> read_piece_list(const std::string& path) {
 void check_piece(const PieceRequest& request) {
   const Settings settings(request);
   std::vector<std::string> known = known_settings(request.kind);
-  if (const auto as = settings.text("as")) {
+  if (const auto as = settings.text("as"); as && *as != "auto") {
     const MapShape shape =
         parse_option(printable(request.file) + ": as", [&] { return parse_map_shape(*as); });
     for (const Parameter& each : shape.parameterization.parameters()) known.push_back(each.name);
@@ -200,12 +203,14 @@ void check_piece(const PieceRequest& request) {
   panel_options(request);
   colour_of(request);
   if (request.kind == PieceRequest::Kind::ball) ball_options(request);
+  if (circle_of(request) && (is_flat(request) || settings.text("as") == "auto"))
+    settings.refuse("x, y and radius: are of a disc, which as=fisheye-equidistant… says");
   if (!is_flat(request)) return;
   const std::optional<double> fov = settings.number("fov");
   if (!fov)
     settings.refuse(
         "say its horizontal field of view, fov=DEGREES, or what it is if it isn't flat: "
-        "as=fisheye-equidistant…");
+        "as=auto, as=fisheye-equidistant…");
   if (!(*fov >= 0.001 && *fov <= 179))
     settings.refuse(fmt::format("fov: a flat picture's is 0.001 to 179 degrees, not {}", number_text(*fov)));
 }
@@ -215,8 +220,11 @@ ReadPiece read_piece(const PieceRequest& request) {
   ReadMapOptions how;
   how.image.colour = colour_of(request);
   // Whatever shape a picture of one chart is read as, its pixels are the same.
-  how.shape = is_flat(request) || is_ball ? std::optional<std::string>("latlong") : shape_of(request);
-  if (request.kind == PieceRequest::Kind::panel || how.shape) how.orientation = Matrix3{};
+  const std::optional<std::string> shape = shape_of(request);
+  const bool is_disc =
+      shape && parse_map_shape(*shape).parameterization.traits().projection == sphere::Projection::disc;
+  how.shape = is_flat(request) || is_ball || is_disc ? std::optional<std::string>("latlong") : shape;
+  if (how.shape) how.orientation = Matrix3{};
   MapReader reader(request.file, how);
   print_warnings(request.file, reader.info().image.warnings);
   Map map = reader.read();
@@ -231,6 +239,10 @@ ReadPiece read_piece(const PieceRequest& request) {
   const PanelOptions options = panel_options(request);
   if (is_flat(request))
     return {make_flat_panel(request.file, std::move(map), Settings(request).number_or("fov", 0), options),
+            ""};
+  if (is_disc)
+    return {make_disc_panel(request.file, std::move(map), parse_map_shape(*shape).parameterization,
+                            circle_of(request), options),
             ""};
   const Matrix3 declared = map.orientation;
   Piece piece = make_panel(request.file, std::move(map), options);

@@ -5,8 +5,10 @@
 
 #include "welkin/assemble/assemble.h"
 #include "welkin/assemble/ball_photograph.h"
+#include "welkin/assemble/composite_over.h"
 #include "welkin/assemble/edges.h"
 #include "welkin/assemble/exposure.h"
+#include "welkin/assemble/ground.h"
 #include "welkin/assemble/piece.h"
 #include "welkin/base/error.h"
 #include "welkin/base/export.h"

@@ -63,4 +63,41 @@ refuses 1 "unknown list 'panes'; did you mean 'panels'" assemble x.exr --list ba
 printf '{"panels": [{"file": "a.png", "fov": [1]}]}' >bad.json
 refuses 1 '"fov" of entry 1 is neither a number nor a text' assemble x.exr --list bad.json
 
+# Photographs of a mirror ball from three sides are the world again, and as bright as the first.
+must synth sky sky.exr --size 512
+for k in 0 1 2; do
+  must convert sky.exr ball$k.exr --to mirror-ball,distance=12 --size 300 --rotate $((k * 120)),0,0 --exposure 0.$k
+done
+balls=(--ball ball0.exr,distance=12,yaw=180,camera=8 --ball ball1.exr,distance=12,yaw=300,camera=8
+  --ball ball2.exr,distance=12,yaw=60,camera=8)
+matches '^together +(99\.9|100\.0). %' assemble balls.exr "${balls[@]}" --match --size 512
+grep -qE 'hidden behind the ball a cone of 4\.78°' "$work/out" || fail "no blind cone: $(cat "$work/out")"
+near 'gains' "$(sed -nE 's/.*times ([0-9.]+)/\1/p' "$work/out" | tr '\n' ' ')" "0.9330 0.8706" 0.004
+for direction in 1,0.2,0 -1,0.3,0.2 0,0.5,1 0,0.3,-1 0.1,-1,0; do
+  near "along $direction" "$(sample_along balls.exr "$direction")" "$(sample_along sky.exr "$direction")" 0.03
+done
+# The same by a field of view, and the ball as a part of the photograph.
+must assemble fov.exr --ball ball0.exr,fov=9.5604,yaw=180 --size 256
+must assemble distance.exr --ball ball0.exr,distance=12,yaw=180,x=150,y=150,radius=150 --size 256
+same distance.exr fov.exr 1e-3
+refuses 2 'distance: follows from fov' assemble x.exr --ball ball0.exr,fov=9,distance=12
+refuses 2 'give all three' assemble x.exr --ball ball0.exr,x=150
+refuses 1 'is not inside the picture' assemble x.exr --ball ball0.exr,x=10,y=10,radius=100
+refuses 1 'has to be outside the ball' assemble x.exr --ball ball0.exr,distance=1
+refuses 1 'half angle that the camera hides' assemble x.exr --ball ball0.exr,camera=90
+
+# A fish-eye photograph of the sky, taken straight up, becomes a half cube; and a world, with a ground of each kind.
+must convert sky.exr up.exr --to fisheye-equidistant,fov=180 --size 400 --rotate 0,90,0
+must assemble halfcube.exr --panel up.exr,as=fisheye-equidistant,fov=180,pitch=90 --to half-cube --size 256
+must convert sky.exr wanted.exr --to half-cube --size 256
+same wanted.exr halfcube.exr 0.1
+for ground in mirror stretch; do
+  must assemble $ground.exr --panel up.exr,as=fisheye-equidistant,fov=180,pitch=90 --ground $ground --size 512
+done
+near mirrored "$(sample_along mirror.exr 0.5,-0.4,1)" "$(sample_along sky.exr 0.5,0.4,1)" 0.02
+near stretched "$(sample_along stretch.exr 0.5,-0.4,1)" "$(sample_along stretch.exr 0.5,0.005,1)" 0.02
+must assemble declared.exr --panel wanted.exr,as=auto --ground mirror --size 512
+near declared "$(sample_along declared.exr 0.5,-0.4,1)" "$(sample_along sky.exr 0.5,0.4,1)" 0.02
+refuses 1 'all of the horizon' assemble x.exr --panel list/face_pz.exr,fov=90 --ground stretch
+
 finish

@@ -222,6 +222,28 @@ TEST(Assemble, AimsAsItSays) {
   EXPECT_NEAR(where({0, 0, 90}, {-1, 0, 0}).y, -1, 1e-12);
 }
 
+// A fish-eye photograph that isn't square: its disc lies in a circle.
+TEST(Assemble, ADiscLiesInACircle) {
+  const auto lens = AnyParameterization::make("fisheye-equisolid,fov=180");
+  const Map disc = render(smooth_world, lens, 100, 100);
+  Map photograph(AnyParameterization::make("latlong"), 160, 120, 3);
+  for (int y = 0; y < 100; ++y) {
+    for (int x = 0; x < 100; ++x)
+      std::copy_n(disc.level.chart(0).at(x, y), 3, photograph.level.chart(0).at(x + 44, y + 13));
+  }
+  std::vector<Piece> pieces;
+  pieces.push_back(make_disc_panel("photograph", std::move(photograph), lens, PictureCircle{94, 63, 50}));
+  const Assembly made = assemble(pieces, latlong(128));
+  EXPECT_NEAR(made.shown, 0.5, 1e-3);
+  const Map truth = render(smooth_world, AnyParameterization::make("latlong"), 128, 64);
+  for (double azimuth = -80; azimuth <= 80; azimuth += 10) {
+    for (double elevation = -50; elevation <= 50; elevation += 25) {
+      const Vec3d d = direction_at(azimuth, elevation);
+      EXPECT_NEAR(at(made.map, d), at(truth, d), 0.01) << azimuth << " " << elevation;
+    }
+  }
+}
+
 TEST(Assemble, RefusesWhatMakesNoSense) {
   const auto picture = [] { return flat(white, 60, {}, 8, 8); };
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

@@ -14,26 +14,8 @@ namespace welkin {
 namespace {
 
 constexpr double kNearest = 1.01;
-/// A circle that is given may reach over the photograph's edge by its rounding, texels.
-constexpr double kRound = 0.5;
-
-BallCircle circle_in(const std::string& name, const Map& photograph, const BallPhotographOptions& options) {
-  const double width = photograph.width(), height = photograph.height();
-  if (!options.circle) return {width / 2, height / 2, std::min(width, height) / 2};
-  const BallCircle& circle = *options.circle;
-  const auto [x, y, radius] = circle;
-  const bool inside = std::isfinite(x) && std::isfinite(y) && radius >= 2 && x - radius >= -kRound &&
-                      y - radius >= -kRound && x + radius <= width + kRound && y + radius <= height + kRound;
-  if (!inside)
-    throw Error(ErrorKind::bad_request, name,
-                "the ball, of radius " + number_text(radius) + " around (" + number_text(x) + ", " +
-                    number_text(y) + "), is not inside the photograph of " + number_text(width) + "×" +
-                    number_text(height) + " texels, or its radius is below 2");
-  return circle;
-}
-
 /// The ball's outline is seen at an angle from the axis whose sine is 1/distance.
-double distance_of(const std::string& name, const Map& photograph, const BallCircle& circle,
+double distance_of(const std::string& name, const Map& photograph, const PictureCircle& circle,
                    const BallPhotographOptions& options) {
   double distance = options.distance;
   if (options.fov) {
@@ -69,7 +51,10 @@ void check(const std::string& name, const BallPhotographOptions& options) {
 
 BallPiece make_ball_piece(std::string name, Map photograph, const BallPhotographOptions& options) {
   check(name, options);
-  const BallCircle circle = circle_in(name, photograph, options);
+  const double width = photograph.width(), height = photograph.height();
+  const PictureCircle circle =
+      options.circle.value_or(PictureCircle{width / 2, height / 2, std::min(width, height) / 2});
+  check_circle(name, photograph, circle);
   BallPicture picture;
   picture.distance = distance_of(name, photograph, circle, options);
   picture.x = circle.x / photograph.width();

@@ -11,13 +11,6 @@
 /// Photographs of a mirror ball as pieces of a world.
 namespace welkin {
 
-/// Where the ball is in a photograph, texels from its top left corner; texel centres lie at +½.
-struct BallCircle {
-  double x = 0;       ///< of the centre, to the right
-  double y = 0;       ///< of the centre, down
-  double radius = 0;  ///< of the ball's outline
-};
-
 /// How a photograph of a mirror ball was taken. The ball is on the camera's axis, so that its outline is a
 /// circle.
 struct BallPhotographOptions {
@@ -28,7 +21,7 @@ struct BallPhotographOptions {
   /// In place of the distance: the photograph's horizontal field of view, degrees. The distance follows from
   /// the size of the ball in it.
   std::optional<double> fov = {};
-  std::optional<BallCircle> circle = {};  ///< none: the circle inscribed in the photograph
+  std::optional<PictureCircle> circle = {};  ///< none: the circle inscribed in the photograph
   /// Half angle of the cone around the direction to the camera that is left out, degrees, below 90: what the
   /// camera and who holds it hide.
   double camera = 0;

@@ -14,7 +14,7 @@ namespace welkin {
 
 struct BallShot {
   int width = 200, height = 200;
-  BallCircle circle{100, 100, 100};
+  PictureCircle circle{100, 100, 100};
   double distance = 20;
   Aim aim = {};
   double camera = 0;      ///< half angle of the black cone around the camera, as the ball shows it

@@ -64,7 +64,7 @@ TEST(BallPhotograph, TellsItsBlindCone) {
 TEST(BallPhotograph, TakesTheFieldOfViewForTheDistance) {
   BallPhotographOptions options;
   options.fov = 40;
-  options.circle = BallCircle{100, 80, 50};
+  options.circle = PictureCircle{100, 80, 50};
   const BallPiece ball =
       make_ball_piece("ball", Map(sphere::AnyParameterization::make("latlong"), 200, 160, 3), options);
   EXPECT_NEAR(std::tan(std::asin(1 / ball.distance)), std::tan(20 * kDegree) / 2, 1e-12);
@@ -98,8 +98,9 @@ TEST(BallPhotograph, RefusesWhatMakesNoSense) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (const double distance : {0.0, 1.0, -3.0, kNaN}) refuses({.distance = distance});
   for (const double fov : {0.0, 180.0, kNaN}) refuses({.fov = fov});
-  for (const BallCircle& circle : {BallCircle{50, 40, 41}, BallCircle{20, 40, 30}, BallCircle{500, 40, 30},
-                                   BallCircle{50, 40, 0}, BallCircle{50, 40, kNaN}, BallCircle{kNaN, 40, 20}})
+  for (const PictureCircle& circle :
+       {PictureCircle{50, 40, 41}, PictureCircle{20, 40, 30}, PictureCircle{500, 40, 30},
+        PictureCircle{50, 40, 0}, PictureCircle{50, 40, kNaN}, PictureCircle{kNaN, 40, 20}})
     refuses({.circle = circle});
   for (const double camera : {-1.0, 90.0, kNaN}) refuses({.camera = camera});
   for (const double rim : {-1.0, 40.0, kNaN}) refuses({.rim = rim});

@@ -56,7 +56,7 @@ double Cap::depth(const Vec3d& direction) const {
 std::vector<Cap> edges_of(const sphere::AnyParameterization& p) {
   if (p.whole_world()) return {};
   const double radius = std::acos(std::clamp(1 - p.coverage() / (2 * kPi), -1.0, 1.0));
-  for (const Vec3d& axis : {Vec3d{0, 0, 1}, Vec3d{0, 1, 0}}) {
+  for (const Vec3d& axis : {Vec3d{0, 0, 1}, Vec3d{0, 1, 0}, Vec3d{0, -1, 0}}) {
     if (std::vector<Cap> one{{axis, radius}}; bound(p, one)) return one;
   }
   std::vector<Cap> caps;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "welkin/assemble/circle_part.h"
 #include "welkin/assemble/flat_picture.h"
 #include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
@@ -17,6 +18,8 @@ namespace {
 
 /// How far beyond 0 … 1 alpha may be by the rounding of who filtered it.
 constexpr float kAlphaRound = 1e-3f;
+/// A circle may reach over a picture's edge by its rounding, texels.
+constexpr double kCircleRound = 0.5;
 
 /// Which channels of a map become R G B A; −1: there is no alpha.
 struct Sources {
@@ -116,6 +119,35 @@ Piece make_flat_panel(std::string name, Map picture, double fov, const PanelOpti
   require(proportions >= 1e-4 && proportions <= 1e4, "a flat picture is at most 10000 times as wide as high");
   const auto flat = sphere::make_parameterization(FlatPicture(fov, proportions));
   return make_panel(std::move(name), with_parameterization(flat, std::move(picture)), options);
+}
+
+void check_circle(const std::string& name, const Map& picture, const PictureCircle& circle) {
+  const double width = picture.width(), height = picture.height();
+  const auto [x, y, radius] = circle;
+  const bool inside = std::isfinite(x) && std::isfinite(y) && radius >= 2 && x - radius >= -kCircleRound &&
+                      y - radius >= -kCircleRound && x + radius <= width + kCircleRound &&
+                      y + radius <= height + kCircleRound;
+  if (inside) return;
+  throw Error(ErrorKind::bad_request, name,
+              "the circle of radius " + number_text(radius) + " around (" + number_text(x) + ", " +
+                  number_text(y) + ") is not inside the picture of " + number_text(width) + "×" +
+                  number_text(height) + " texels, or its radius is below 2");
+}
+
+Piece make_disc_panel(std::string name, Map picture, const sphere::AnyParameterization& disc,
+                      const std::optional<PictureCircle>& circle, const PanelOptions& options) {
+  if (disc.charts() != 1 || disc.full_charts())
+    throw Error(ErrorKind::bad_request, name, disc.spec() + " has no disc that could lie in a circle");
+  const double width = picture.width(), height = picture.height();
+  const PictureCircle where =
+      circle.value_or(PictureCircle{width / 2, height / 2, std::min(width, height) / 2});
+  check_circle(name, picture, where);
+  // The parameterization's own functions are the faster ones.
+  if (!circle && picture.width() == picture.height())
+    return make_panel(std::move(name), with_parameterization(disc, std::move(picture)), options);
+  CirclePart part{disc, where.x / width, where.y / height, where.radius / width, where.radius / height};
+  return make_panel(std::move(name),
+                    with_parameterization(sphere::make_parameterization(part), std::move(picture)), options);
 }
 
 Map with_parameterization(const sphere::AnyParameterization& parameterization, Map map) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,17 @@ struct Piece {
   Piece(std::string name, Map map);
 };
 
+/// A circle in a picture, texels from its top left corner; texel centres lie at +½.
+struct PictureCircle {
+  double x = 0;       ///< of the centre, to the right
+  double y = 0;       ///< of the centre, down
+  double radius = 0;  ///< of the circle, at least 2
+};
+
+/// Throws Error (bad_request) about the picture when the circle isn't inside it, to half a texel, or isn't
+/// one.
+WELKIN_API void check_circle(const std::string& name, const Map& picture, const PictureCircle& circle);
+
 /// How a picture is placed in the world.
 struct PanelOptions {
   Aim aim = {};
@@ -58,6 +70,13 @@ WELKIN_API Piece make_panel(std::string name, Map map, const PanelOptions& optio
 /// The same of a flat picture, as a camera or a painter sees it: the map's pixels are what counts, whatever
 /// its parameterization of one chart; `fov` is its horizontal field of view, degrees, 0.001 … 179.
 WELKIN_API Piece make_flat_panel(std::string name, Map picture, double fov, const PanelOptions& options = {});
+
+/// The same of a picture that holds the disc of a parameterization, a fish-eye's or a mirror ball's, in a
+/// circle: its pixels are what counts. None: the circle inscribed in it. Throws also Error (bad_request) for
+/// a circle that isn't inside it, and a parameterization that isn't a disc.
+WELKIN_API Piece make_disc_panel(std::string name, Map picture, const sphere::AnyParameterization& disc,
+                                 const std::optional<PictureCircle>& circle = {},
+                                 const PanelOptions& options = {});
 
 /// A map with the pixels of another's single chart. Its borders are filled. Throws Error (bad_request) when
 /// either has more charts.
