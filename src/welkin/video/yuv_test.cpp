@@ -81,7 +81,8 @@ TEST(Yuv, SlowColoursComeBack) {
                                               io::linear_to_srgb(static_cast<double>(image.at(x, y)[c]))));
           }
         }
-        // Half a step of luma and of chroma, times the matrix; at borders the last sample is repeated, half a pixel of slope.
+        // Half a step of luma and of chroma, times the matrix; at borders the last sample is repeated, half a
+        // pixel of slope.
         const double step = 1.0 / (full ? (1 << bits) - 1 : 219 << (bits - 8));
         EXPECT_LT(largest, 1.7 * step + (chroma == Chroma::c444 ? 1e-5 : 0.015))
             << static_cast<int>(chroma) << " " << bits;
