@@ -24,8 +24,8 @@ bool size_fits(const MapShape& shape, int width, int height, ChartSize& chart) {
   if (!size) return false;
   chart = *size;
   if (shape.parameterization.traits().free_aspect) return true;
-  const double wide = shape.parameterization.aspect() * chart.height;
-  const double high = chart.width / shape.parameterization.aspect();
+  const double aspect = shape.parameterization.at_size(chart.width, chart.height).aspect();
+  const double wide = aspect * chart.height, high = chart.width / aspect;
   return std::fabs(wide - chart.width) <= std::max(1.0, 0.01 * wide) || std::fabs(high - chart.height) < 1;
 }
 

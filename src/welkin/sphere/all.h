@@ -6,6 +6,7 @@
 #include "welkin/sphere/eac.h"
 #include "welkin/sphere/equal_area.h"
 #include "welkin/sphere/fisheye.h"
+#include "welkin/sphere/frame.h"
 #include "welkin/sphere/half_cube.h"
 #include "welkin/sphere/healpix.h"
 #include "welkin/sphere/hemi_octahedral.h"
@@ -35,6 +36,7 @@ using AllParameterizations =
              Octahedral, OctahedralRect, OctahedralPerspective, OctahedralEqualArea, FisheyeEquidistant,
              FisheyeEquisolid, FisheyeOrthographic, FisheyeStereographic, HalfCube, HemiOctahedral,
              SkyLatLong, Vr180, Cylinder, Mercator, Healpix, OpenExrLatLong, OpenExrCube, MitsubaLatLong,
+             Perspective, Pannini, Cylindrical, Stereographic, Equidistant, Equisolid, Orthographic,
              LatLongWindow>;
 
 /// Calls visit(name, value, minimum, maximum, description) for each parameter of `p`, if it has any. `value`

@@ -91,7 +91,9 @@ concept HasParameters = requires(P& p) {
 template <class P>
 class ModelOf final : public AnyParameterization::Model {
  public:
-  explicit ModelOf(P p = P()) : p_(std::move(p)) { kernels = &ScalarKernels<P>::table(); }
+  explicit ModelOf(P p = P()) : p_(std::move(p)) {
+    kernels = &ScalarKernels<typename KernelStructOf<P>::Type>::table();
+  }
 
   std::string name() const override { return P::kName; }
   const Traits& traits() const override {
@@ -150,7 +152,7 @@ class ModelOf final : public AnyParameterization::Model {
   }
   bool valid(int chart, double u, double v) const override { return p_.template valid<double>(chart, u, v); }
   bool covers(const Vec3d& d) const override { return p_.template covers<double>(d); }
-  const void* self() const override { return &p_; }
+  const void* self() const override { return static_cast<const typename KernelStructOf<P>::Type*>(&p_); }
 
  private:
   P p_;

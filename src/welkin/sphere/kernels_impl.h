@@ -70,11 +70,15 @@ struct KernelsOf {
   }
 };
 
+template <class P, class Arch>
+constexpr Kernels table_of() {
+  using Of = KernelsOf<P, Arch>;
+  return {&Of::to_sphere, &Of::from_sphere, &Of::density, &Of::valid, &Of::covers};
+}
+
 template <class Arch, class... P>
 const Kernels& kernels_at(TypeList<P...>, std::size_t index) {
-  static constexpr Kernels table[] = {{&KernelsOf<P, Arch>::to_sphere, &KernelsOf<P, Arch>::from_sphere,
-                                       &KernelsOf<P, Arch>::density, &KernelsOf<P, Arch>::valid,
-                                       &KernelsOf<P, Arch>::covers}...};
+  static constexpr Kernels table[] = {table_of<typename KernelStructOf<P>::Type, Arch>()...};
   return table[index];
 }
 

@@ -75,6 +75,20 @@ constexpr Traits traits_of() {
   }
 }
 
+/// The struct whose functions are compiled as the kernels of P: a base of it that several share, and names as
+/// `KernelStruct`, or itself.
+template <class P>
+struct KernelStructOf {
+  using Type = P;
+};
+template <class P>
+requires requires {
+  typename P::KernelStruct;
+}
+struct KernelStructOf<P> {
+  using Type = typename P::KernelStruct;
+};
+
 /// For a parameterization whose charts are full and cover the whole sphere: inherit these.
 struct WholeWorld {
   /// True everywhere.

@@ -38,6 +38,21 @@ struct Window : LatLongWindow {
   }
 };
 
+/// A frame in which everything is set: an aspect of 1.6, a shift, vertical or diagonal field of view. Of
+/// radial lenses the rim crosses it.
+template <class P, int kFov, bool kDiagonal, int kRim = 0>
+struct Shifted : P {
+  Shifted() {
+    (kDiagonal ? this->dfov : this->vfov) = kFov;
+    this->ratio = 1.6;
+    this->right = 0.21;
+    this->up = -0.13;
+    if (kRim > 0) this->rim = kRim;
+    this->shape = {0.7, kDiagonal ? 0.4 : 0.0};
+    this->update();
+  }
+};
+
 /// Every registered parameterization, and those with parameters at a few other values.
 using Cases =
     Joined<AllParameterizations, With<MirrorBall, 5>, With<MirrorBall, 2>, With<FisheyeEquidistant, 220>,
@@ -46,7 +61,11 @@ using Cases =
            With<Cylinder, 150>, With<Mercator, 120>, Window<-90, 90, 45, -45>, Window<0, 180, 90, -90>,
            Window<90, 270, 60, -20>, Window<-180, 180, 30, -60>, Window<0, 360, 90, -90>,
            Window<37, 38, 61, 60>, Window<-70, 230, 90, 20>, Window<130, 200, -30, -90>, With<Vr180, 220>,
-           With<Vr180, 60>>::Types;
+           With<Vr180, 60>, Shifted<Perspective, 70, true>, Shifted<Pannini, 60, false>,
+           Shifted<Pannini, 120, true>, Shifted<Cylindrical, 120, true>, Shifted<Stereographic, 240, false>,
+           Shifted<Equidistant, 190, false, 230>, Shifted<Equisolid, 330, true, 250>,
+           Shifted<Orthographic, 100, false, 150>, With<Perspective, 150>, With<Pannini, 300>,
+           With<Cylindrical, 360>, With<Equidistant, 360>>::Types;
 
 struct CaseName {
   template <class P>

@@ -145,10 +145,21 @@ void AnyParameterization::add(const AnyParameterization& parameterization) {
 }
 
 AnyParameterization AnyParameterization::at_size(int width, int height) const {
-  if (!traits().follows_size) return *this;
+  const auto aspect_of = [](const Parameter& p) { return p.name == "aspect"; };
+  const std::vector<Parameter> now = parameters();
+  const bool open = traits().follows_aspect && std::find_if(now.begin(), now.end(), aspect_of)->value == 0;
+  if (!traits().follows_size && !open) return *this;
   std::unique_ptr<Model> made = model_->with_defaults();
-  made->set("width", std::max(width, 2));
-  made->set("height", std::max(height, 2));
+  if (open) {
+    for (const Parameter& each : now) made->set(each.name, each.value);
+    made->set("aspect", static_cast<double>(width) / height);
+  } else {
+    made->set("width", std::max(width, 2));
+    made->set("height", std::max(height, 2));
+  }
+  if (const std::string fault = made->fault(); !fault.empty())
+    throw Error(ErrorKind::bad_request,
+                spec() + " of " + std::to_string(width) + "×" + std::to_string(height) + ": " + fault);
   return AnyParameterization(std::shared_ptr<const Model>(std::move(made)));
 }
 

@@ -30,8 +30,9 @@ class WELKIN_API AnyParameterization {
   /// Its parameters, with their values.
   std::vector<Parameter> parameters() const;
 
-  /// The same for charts of this size, where it depends on it (Traits::follows_size): the parameters `width`
-  /// and `height`, at least 2, follow. Others don't change.
+  /// The same for charts of this size, where it depends on it: the parameters `width` and `height`, at least
+  /// 2, follow (Traits::follows_size), or `aspect` where it is 0 (Traits::follows_aspect). Others don't
+  /// change.
   AnyParameterization at_size(int width, int height) const;
 
   /// How many charts: 6 of a cube.

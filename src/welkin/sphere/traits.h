@@ -24,6 +24,8 @@ struct Traits {
   bool free_aspect = false;      ///< texels are never square, so charts may have any aspect
   bool latlong_grid = false;     ///< rows at even steps of colatitude, columns of longitude, all of it
   bool follows_size = false;     ///< its parameters `width` and `height` are the size of the chart in texels
+  bool follows_aspect =
+      false;                ///< its parameter `aspect`, where it is 0, becomes that of the chart in texels
   bool cube_faces = false;  ///< six charts, the faces +X −X +Y −Y +Z −Z of a cube: crosses and strips exist
   bool cube_texture = false;     ///< its charts are the faces of a cube map as GPUs sample it
   int grid_columns = 0;          ///< charts across the grid of a picture; 0: all in one row
