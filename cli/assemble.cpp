@@ -21,7 +21,7 @@ namespace {
 constexpr double kLeastOverlap = 0.002;
 
 struct Assemble {
-  std::string out, to = "latlong", size, list, background, ground, mix = "density", convention, format;
+  std::string out, to = "latlong", size, list, background, ground, mix = "finer", convention, format;
   std::vector<std::string> panels, balls;
   bool alpha = false, match = false;
   WriteFlags write;
@@ -130,7 +130,7 @@ void Assemble::run() const {
   AssembleOptions options;
   options.fill = colour();
   options.alpha = alpha;
-  options.by_density = mix == "density";
+  options.by_fineness = mix == "finer";
   options.monitor = progress_monitor("assemble");
   Assembly made = assemble(pieces, frame, options);
   end_progress();
@@ -182,9 +182,8 @@ void add_assemble(CLI::App& app) {
   command->add_flag("--alpha", assemble->alpha, "Write A, how much is covered");
   command
       ->add_option("--mix", assemble->mix,
-                   "How pictures that overlap are weighted: density (by texels per steradian, so that the "
-                   "sharper prevails), even")
-      ->check(CLI::IsMember({"density", "even"}))
+                   "Which of pictures that overlap counts more: finer (the one with more texels per degree), even")
+      ->check(CLI::IsMember({"finer", "even"}))
       ->capture_default_str();
   command->add_option("--to", assemble->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")
       ->capture_default_str();

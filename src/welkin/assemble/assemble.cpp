@@ -18,7 +18,7 @@ constexpr double kLeastFeather = 1e-6;
 /// Of a layer's pieces at one texel.
 struct Blend {
   double opacity = 0;                ///< the sum of all
-  double weight = 0;                 ///< of the colours: alpha, times feather and density
+  double weight = 0;                 ///< of the colours: alpha, times feather and fineness
   std::array<double, 3> light = {};  ///< the sum of colours by that weight, but for their own alpha
 };
 
@@ -99,13 +99,13 @@ class Assembler {
         if (!(alpha > 0)) continue;
         const double feather = fades ? feathers[i] : std::max(feathers[i], kLeastFeather);
         const double opaque = fades ? feather * alpha : alpha;
-        const double density =
-            options_.by_density && to > from + 1 ? texels_[k].texels_per_steradian(tile.directions[i]) : 1;
+        const double fineness =
+            options_.by_fineness && to > from + 1 ? texels_[k].fineness(tile.directions[i]) : 1;
         opacity[k][i] = opaque;
         blends[i].opacity += opaque;
-        blends[i].weight += density * feather * alpha;
+        blends[i].weight += fineness * feather * alpha;
         for (std::size_t c = 0; c < 3; ++c)
-          blends[i].light[c] += density * feather * static_cast<double>(colour[c]);
+          blends[i].light[c] += fineness * feather * static_cast<double>(colour[c]);
       }
     }
     return blends;

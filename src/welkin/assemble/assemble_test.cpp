@@ -177,7 +177,7 @@ TEST(Assemble, HigherLayersLieOver) {
   EXPECT_NEAR(at(made.map, {0, 0, 1}, 1), 0 + 0.5, 1e-5);
   // In one layer both are mixed by their opacity: (1·½·2 + 1·1)/1.5.
   pieces[0].layer = 0;
-  const Assembly mixed = assemble(pieces, latlong(64), {.by_density = false});
+  const Assembly mixed = assemble(pieces, latlong(64), {.by_fineness = false});
   EXPECT_NEAR(at(mixed.map, {0, 0, 1}, 0), 2 / 1.5, 1e-5);
 }
 
@@ -193,7 +193,7 @@ TEST(Assemble, BackdropsAreNotCountedAsShown) {
   EXPECT_NEAR(at(made.map, {0, 0, -1}, 0), at(truth, {0, 0, -1}), 1e-5);
 }
 
-// Of two that show the same, the sharper counts by its texels per steradian: 16 times those of the other.
+// Of two that show the same, the sharper counts by its texels per radian, squared: 16 times those of the other.
 TEST(Assemble, TheSharperPrevails) {
   std::vector<Piece> pieces;
   pieces.push_back(make_flat_panel("sharp",
@@ -211,7 +211,7 @@ TEST(Assemble, TheSharperPrevails) {
                                        60, {}, 16, 16),
                                    60));
   EXPECT_NEAR(at(assemble(pieces, latlong(64)).map, {0, 0, 1}), 16.0 / 17, 1e-4);
-  EXPECT_NEAR(at(assemble(pieces, latlong(64), {.by_density = false}).map, {0, 0, 1}), 0.5, 1e-4);
+  EXPECT_NEAR(at(assemble(pieces, latlong(64), {.by_fineness = false}).map, {0, 0, 1}), 0.5, 1e-4);
 }
 
 TEST(Assemble, AimsAsItSays) {

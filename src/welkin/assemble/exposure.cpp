@@ -44,7 +44,7 @@ Seen seen_of(const Piece& piece, const MapFrame& frame) {
       const auto to = static_cast<std::size_t>((tile.y + i / tile.width) * kSide + tile.x + i % tile.width);
       std::copy_n(&colours[4 * from], 4, &seen.colours[4 * to]);
       if (colours[4 * from + 3] < kOpaque || !(feathers[from] > 0)) continue;
-      seen.weights[to] = feathers[from] * texels.texels_per_steradian(tile.directions[from]);
+      seen.weights[to] = feathers[from] * texels.fineness(tile.directions[from]);
     }
   });
   double sum = 0, count = 0;

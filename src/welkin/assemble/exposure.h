@@ -24,7 +24,8 @@ struct Overlap {
 };
 
 /// Compares every two pieces of one layer, by their means over 9216 parts of the sphere of equal area (2.1°
-/// across), each weighted by the lower of their texels per steradian and feathers. Those that overlap in none
+/// across), each weighted by the lower of their finenesses
+/// (AssembleOptions::by_fineness) and feathers. Those that overlap in none
 /// are left out. Throws as assemble().
 WELKIN_API std::vector<Overlap> compare_overlaps(std::span<const Piece> pieces, const Monitor& monitor = {});
 

@@ -109,12 +109,21 @@ bool PieceTexels::make(const Tile& tile, float* colours, double* feathers) const
   return true;
 }
 
-double PieceTexels::texels_per_steradian(const Vec3d& direction) const {
+double PieceTexels::fineness(const Vec3d& direction) const {
   const auto& p = piece_.map.parameterization;
   const auto at = p.from_sphere(piece_.map.orientation * direction);
-  const double density =
-      p.solid_angle_density(static_cast<int>(at.chart), clamp(at.u, 0.0, 1.0), clamp(at.v, 0.0, 1.0));
-  return static_cast<double>(piece_.map.width()) * piece_.map.height() / std::max(density, 1e-12);
+  const int chart = static_cast<int>(at.chart);
+  const double u = clamp(at.u, 0.0, 1.0), v = clamp(at.v, 0.0, 1.0);
+  // What a step of one texel to the right and one down turns the direction by.
+  const double width = piece_.map.width(), height = piece_.map.height();
+  constexpr double kStep = 1e-3;
+  const Vec3d here = p.to_sphere(chart, u, v);
+  const Vec3d right = (1 / kStep) * (p.to_sphere(chart, u + kStep / width, v) - here);
+  const Vec3d down = (1 / kStep) * (p.to_sphere(chart, u, v + kStep / height) - here);
+  // The larger singular value of both.
+  const double a = dot(right, right), b = dot(down, down), c = dot(right, down);
+  const double longest = 0.5 * (a + b + std::sqrt((a - b) * (a - b) + 4 * c * c));
+  return 1 / std::max(longest, 1e-20);
 }
 
 }  // namespace welkin
