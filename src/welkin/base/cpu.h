@@ -9,4 +9,7 @@ enum class InstructionSet { baseline, avx2 };
 /// environment (for tests and comparisons). Decided once.
 InstructionSet instruction_set();
 
+/// Whether code for avx2 may use F16C too: conversions between halves and floats.
+bool has_f16c();
+
 }  // namespace welkin
