@@ -75,6 +75,7 @@
 #include "welkin/lookup/cone_reference.h"
 #include "welkin/lookup/cone_sampler.h"
 #include "welkin/lookup/cone_shapes.h"
+#include "welkin/lookup/gaussian_stack.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/chain.h"

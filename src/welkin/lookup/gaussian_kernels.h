@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// The inner loops of Gaussian look-ups, compiled once per instruction set. Internal to lookup.
+namespace welkin {
+
+/// Positions to read, and with which weights: structure of arrays.
+struct GaussianTaps {
+  static constexpr std::size_t kMost = 192, kLanes = 16;
+
+  alignas(64) float x[kMost + kLanes], y[kMost + kLanes], z[kMost + kLanes];  ///< directions, |d| near 1
+  alignas(64) float weight[kMost + kLanes];
+  alignas(64) float size[kMost + kLanes];  ///< GaussianInterval::size
+  std::int64_t first[kMost + kLanes];      ///< GaussianInterval::first
+
+  /// What `locate` finds: which texel is the first of 3×3, and weights of columns and rows.
+  std::int64_t texel[kMost + kLanes];
+  alignas(64) float across[3][kMost + kLanes];
+  alignas(64) float down[3][kMost + kLanes];
+};
+
+/// The taps of a cone along its long axis: directions d cos φ + a sin φ at φ = node · σ.
+struct GaussianSpread {
+  float direction[3], axis[3];  ///< unit, perpendicular
+  float sigma;
+  const float* nodes;  ///< `count` of them, readable up to the next multiple of kLanes
+  std::size_t count;
+};
+
+struct GaussianKernels {
+  /// Directions of a cone's taps, to x, y, z from `at` on; kLanes − 1 more values may be written.
+  void (*spread)(const GaussianSpread& cone, GaussianTaps& taps, std::size_t at);
+  /// Where the taps 0 … count − 1 read texels of `width` values; asks the cache for them.
+  void (*locate)(GaussianTaps& taps, std::size_t count, const std::uint16_t* values, std::size_t width);
+  /// sums[0 … width − 1] += the weighted texels of the taps from … to − 1. Sums are written up to the next
+  /// multiple of 8.
+  void (*gather)(const GaussianTaps& taps, std::size_t from, std::size_t to, const std::uint16_t* values,
+                 std::size_t width, float* sums);
+  /// Numbers below 65504 to the nearest half.
+  void (*to_halves)(const float* from, std::uint16_t* to, std::size_t count);
+};
+
+const GaussianKernels& gaussian_kernels_baseline();
+#ifdef WELKIN_HAS_AVX2
+const GaussianKernels& gaussian_kernels_avx2();
+#endif
+
+/// For the best instruction set of this processor.
+const GaussianKernels& gaussian_kernels();
+
+}  // namespace welkin
