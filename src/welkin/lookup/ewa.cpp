@@ -15,7 +15,8 @@ namespace {
 constexpr double kLeastVariance = 1.0 / 6;
 
 /// Hybrid: σ of the narrow side in texels of the finer level, at least, where there is a finer one.
-constexpr double kTexelsPerSigma = 2.5;
+
+constexpr double kTexelsPerSigma = 3.5;
 /// Hybrid: of the wide side over the narrow one, at most. Longer cones are blurred across as well.
 constexpr double kLongest = 16;
 /// Hybrid: texels along a chart's side of its coarsest level, at least.
