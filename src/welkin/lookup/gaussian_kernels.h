@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "welkin/lookup/face_grid.h"
+
 /// The inner loops of Gaussian look-ups, compiled once per instruction set. Internal to lookup.
 namespace welkin {
 
@@ -29,7 +31,48 @@ struct GaussianSpread {
   std::size_t count;
 };
 
+/// What lies past an edge of a face of the equi-angular cube: a point at the angle a of the face's own
+/// towards the edge, and t along it, has there the angles out · (π/2 − |a|) + along · atan(t / |s|).
+struct FaceNeighbor {
+  int face;
+  float out_u, along_u, out_v, along_v;
+};
+
+/// Points with four values each.
+struct MassPoints {
+  const float *x, *y, *z;  ///< readable up to the next multiple of kLanes
+  const float* values;
+  std::size_t count;
+};
+
+/// A row of the texels that a blurred one is made of.
+struct BlurRow {
+  int x, y, count;
+  std::size_t weight;  ///< of its first texel in the arrays of weights
+};
+
+/// How texels of a grid weigh in two Gaussians about a direction (gaussian_blur.h).
+struct BlurWeights {
+  float s, t;  ///< the direction: a point of the face's plane
+  float x, y;  ///< where that is in the grid, texels
+  struct Gaussian {
+    float kappa, xx, xy, yy;  ///< exp(−κ (1 − cos θ) + xx Δx² + xy Δx Δy + yy Δy²)
+  } gaussians[2];
+};
+
 struct GaussianKernels {
+  /// Adds points to the grid, where a face or its margin has them.
+  void (*splat)(const MassPoints& points, const FaceNeighbor* neighbors, FaceGrid& grid);
+  /// Weights of rows of texels, whose columns' and rows' tangents are given; a row's are written up to the
+  /// next multiple of kLanes.
+  void (*weigh)(const BlurWeights& blur, const float* tangents, const BlurRow* rows, std::size_t count,
+                float* first, float* second);
+  /// Four times the sums of kPair values with both weights: sums[i][2][kPair], texel (x, y) lying at
+  /// from[i] + x · across[i] + y · down[i].
+  void (*apply)(const BlurRow* rows, std::size_t count, const float* first, const float* second,
+                const float* const* from, const std::ptrdiff_t* across, const std::ptrdiff_t* down,
+                float* sums);
+
   /// Directions of a cone's taps, to x, y, z from `at` on; kLanes − 1 more values may be written.
   void (*spread)(const GaussianSpread& cone, GaussianTaps& taps, std::size_t at);
   /// Where the taps 0 … count − 1 read texels of `width` values; asks the cache for them.

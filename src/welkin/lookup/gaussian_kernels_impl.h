@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <xsimd/xsimd.hpp>
 
@@ -138,6 +139,126 @@ struct GaussianOf {
     }
   }
 
+  static constexpr float kHalfPi = 1.57079632679490f;
+
+  static void splat_one(FaceGrid& grid, int face, float x, float y, const float* value) {
+    // Texel k of the grid, margin included, has its centre at k + ½.
+    const int column = static_cast<int>(x), row = static_cast<int>(y), side = grid.side();
+    if (!(x >= 1 && y >= 1 && column < side - 1 && row < side - 1)) return;
+    const auto weights = [](float f, float* w) {
+      const float before = 0.5f - f, after = 0.5f + f;
+      w[0] = 0.5f * before * before;
+      w[1] = 0.75f - f * f;
+      w[2] = 0.5f * after * after;
+    };
+    float across[3], down[3];
+    weights(x - static_cast<float>(column) - 0.5f, across);
+    weights(y - static_cast<float>(row) - 0.5f, down);
+    float* to = grid.at(face, column - 1, row - 1);
+    for (int r = 0; r < 3; ++r, to += static_cast<std::size_t>(side) * FaceGrid::kPair) {
+      for (int c = 0; c < 3; ++c) {
+        const float weight = down[r] * across[c];
+        float* at = to + static_cast<std::size_t>(c) * FaceGrid::kPair;
+        for (std::size_t i = 0; i < FaceGrid::kValues; ++i) at[i] += weight * value[i];
+      }
+    }
+  }
+
+  static void splat(const MassPoints& points, const FaceNeighbor* neighbors, FaceGrid& grid) {
+    alignas(64) float face[kSize], x[kSize], y[kSize], a[kSize], b[kSize], along[kSize], aside[kSize];
+    const float per_angle = static_cast<float>(grid.size()) / kHalfPi;
+    const float middle = 0.5f * static_cast<float>(grid.size()) + static_cast<float>(grid.margin());
+    // Beyond this angle a point is in a neighbour's margin too.
+    const float edge = kHalfPi / 2 - static_cast<float>(grid.margin()) / per_angle;
+    for (std::size_t start = 0; start < points.count; start += kSize) {
+      const auto at = sphere::cube_face_of(Vec3<Pack>{Pack::load_unaligned(points.x + start),
+                                                      Pack::load_unaligned(points.y + start),
+                                                      Pack::load_unaligned(points.z + start)});
+      const Pack u = xsimd::atan(at.u), v = xsimd::atan(at.v);
+      at.chart.store_aligned(face);
+      u.store_aligned(a);
+      v.store_aligned(b);
+      xsimd::fma(u, Pack(per_angle), Pack(middle)).store_aligned(x);
+      xsimd::fma(v, Pack(per_angle), Pack(middle)).store_aligned(y);
+      const bool near = xsimd::any((xsimd::abs(u) > Pack(edge)) | (xsimd::abs(v) > Pack(edge)));
+      if (near) {
+        const Pack tiny(1e-20f);
+        xsimd::atan(at.v / xsimd::max(xsimd::abs(at.u), tiny)).store_aligned(along);
+        xsimd::atan(at.u / xsimd::max(xsimd::abs(at.v), tiny)).store_aligned(aside);
+      }
+      const std::size_t here = points.count - start < kSize ? points.count - start : kSize;
+      for (std::size_t i = 0; i < here; ++i) {
+        const float* value = points.values + (start + i) * FaceGrid::kValues;
+        const int own = static_cast<int>(face[i]);
+        splat_one(grid, own, x[i], y[i], value);
+        if (!near) continue;
+        const auto beyond = [&](int side, float angle, float other) {
+          const FaceNeighbor& n = neighbors[own * 4 + side];
+          const float out = kHalfPi - angle;
+          splat_one(grid, n.face, (n.out_u * out + n.along_u * other) * per_angle + middle,
+                    (n.out_v * out + n.along_v * other) * per_angle + middle, value);
+        };
+        if (a[i] > edge) beyond(0, a[i], along[i]);
+        if (-a[i] > edge) beyond(1, -a[i], along[i]);
+        if (b[i] > edge) beyond(2, b[i], aside[i]);
+        if (-b[i] > edge) beyond(3, -b[i], aside[i]);
+      }
+    }
+  }
+
+  static void weigh(const BlurWeights& blur, const float* tangents, const BlurRow* rows, std::size_t count,
+                    float* first, float* second) {
+    const float length = 1 / std::sqrt(1 + blur.s * blur.s + blur.t * blur.t);
+    const Pack dx(blur.s * length), dy(blur.t * length), dz(length), one(1.0f), half(0.5f);
+    alignas(64) float lanes[kSize];
+    for (std::size_t i = 0; i < kSize; ++i) lanes[i] = static_cast<float>(i);
+    const Pack lane = Pack::load_aligned(lanes);
+    for (std::size_t r = 0; r < count; ++r) {
+      const BlurRow& row = rows[r];
+      const Pack t(tangents[row.y]), off_y(static_cast<float>(row.y) - blur.y);
+      for (int i = 0; i < row.count; i += static_cast<int>(kSize)) {
+        const Pack s = Pack::load_unaligned(tangents + row.x + i);
+        const Pack inverse = one / xsimd::sqrt(one + s * s + t * t);
+        const Pack x = s * inverse - dx, y = t * inverse - dy, z = inverse - dz;
+        const Pack angle = half * (x * x + y * y + z * z);  // 1 − cos θ
+        const Pack off_x = lane + Pack(static_cast<float>(row.x + i) - blur.x);
+        const auto weight = [&](const BlurWeights::Gaussian& g) {
+          const Pack shape = off_x * (Pack(g.xx) * off_x + Pack(g.xy) * off_y) + Pack(g.yy) * off_y * off_y;
+          return xsimd::exp(shape - Pack(g.kappa) * angle);
+        };
+        weight(blur.gaussians[0]).store_unaligned(first + row.weight + i);
+        weight(blur.gaussians[1]).store_unaligned(second + row.weight + i);
+      }
+    }
+  }
+
+  static void apply(const BlurRow* rows, std::size_t count, const float* first, const float* second,
+                    const float* const* from, const std::ptrdiff_t* across, const std::ptrdiff_t* down,
+                    float* sums) {
+    Eight<Wide> a[4], b[4];
+    for (int k = 0; k < 4; ++k) a[k] = b[k] = Eight<Wide>::zero();
+    for (std::size_t r = 0; r < count; ++r) {
+      const BlurRow& row = rows[r];
+      const float* at[4];
+      for (int k = 0; k < 4; ++k) at[k] = from[k] + row.x * across[k] + row.y * down[k];
+      for (int i = 0; i < row.count; ++i) {
+        const float wa = first[row.weight + static_cast<std::size_t>(i)];
+        const float wb = second[row.weight + static_cast<std::size_t>(i)];
+        for (int k = 0; k < 4; ++k) {
+          Eight<Wide> value;
+          value.load_sums(at[k]);
+          a[k].add(wa, value);
+          b[k].add(wb, value);
+          at[k] += across[k];
+        }
+      }
+    }
+    for (int k = 0; k < 4; ++k) {
+      a[k].store_sums(sums + static_cast<std::size_t>(k) * 2 * FaceGrid::kPair);
+      b[k].store_sums(sums + static_cast<std::size_t>(k) * 2 * FaceGrid::kPair + FaceGrid::kPair);
+    }
+  }
+
   static void to_halves(const float* from, std::uint16_t* to, std::size_t count) {
     std::size_t i = 0;
 #ifdef __F16C__
@@ -161,7 +282,7 @@ struct GaussianOf {
   }
 
   static const GaussianKernels& table() {
-    static constexpr GaussianKernels kernels{&spread, &locate, &gather, &to_halves};
+    static constexpr GaussianKernels kernels{&splat, &weigh, &apply, &spread, &locate, &gather, &to_halves};
     return kernels;
   }
 };

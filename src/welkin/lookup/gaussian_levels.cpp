@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "welkin/base/number_text.h"
 #include "welkin/base/parallel.h"
+#include "welkin/lookup/gaussian_blur.h"
 #include "welkin/lookup/gaussian_kernels.h"
 #include "welkin/lookup/gaussian_taps.h"
 #include "welkin/lookup/padded_cube.h"
@@ -53,15 +55,20 @@ void to_spline(float* values, int count, std::ptrdiff_t step, int lanes) {
   }
 }
 
-void to_spline(ImageView<float> face) {
-  for (int y = 0; y < face.height; ++y) to_spline(face.row(y), face.width, face.channels, face.channels);
-  to_spline(face.data, face.height, face.row_stride, face.width * face.channels);
+/// A pair of faces.
+void to_spline(FaceGrid& grid, int pair) {
+  const int side = grid.side(), values = static_cast<int>(FaceGrid::kPair);
+  float* first = grid.pair(pair);
+  for (int y = 0; y < side; ++y) to_spline(first + y * side * values, side, values, values);
+  to_spline(first, side, side * values, side * values);
 }
 
-std::vector<ChannelScale> scales_of(const Map& map) {
+/// `narrowest`: the least σ² of a level.
+std::vector<ChannelScale> scales_of(const Map& map, double narrowest) {
   const std::size_t channels = static_cast<std::size_t>(map.channels());
   std::vector<double> sums(channels), sizes(channels);
-  std::vector<float> least(channels, 0.0f), solid_angle(static_cast<std::size_t>(map.width()));
+  std::vector<float> least(channels, 0.0f), most(channels, 0.0f),
+      solid_angle(static_cast<std::size_t>(map.width()));
   double whole = 0;
   for (int chart = 0; chart < map.charts(); ++chart) {
     const ImageView<const float> texels = map.level.chart(chart);
@@ -75,6 +82,7 @@ std::vector<ChannelScale> scales_of(const Map& map) {
           sums[c] += area * value;
           sizes[c] += area * std::fabs(value);
           least[c] = std::min(least[c], value);
+          most[c] = std::max(most[c], std::fabs(value));
         }
       }
     }
@@ -83,7 +91,13 @@ std::vector<ChannelScale> scales_of(const Map& map) {
   std::vector<ChannelScale> scales(channels);
   for (std::size_t c = 0; c < channels; ++c) {
     scales[c].mean = static_cast<float>(sums[c] / whole);
-    scales[c].scale = sizes[c] > 0 ? static_cast<float>(sizes[c] / whole) : 1;
+    scales[c].size = sizes[c] > 0 ? static_cast<float>(sizes[c] / whole) : 1;
+    scales[c].contrast = most[c] / scales[c].size;
+    // Halves hold up to 65504 times what a stored 1 is: a power of two times the mean, so that a constant map
+    // is stored exactly. A level of σ² is nowhere brighter than all light in one place is there.
+    scales[c].scale = scales[c].size;
+    for (double largest = std::min(double{scales[c].contrast}, 2 / narrowest); largest > 16384; largest /= 2)
+      scales[c].scale *= 2;
     scales[c].positive = least[c] >= 0;
   }
   return scales;
@@ -127,45 +141,138 @@ std::vector<GaussianInterval> intervals_of(double texel, const GaussianQuality& 
   return intervals;
 }
 
-/// The largest |value| of each channel of each map.
-std::vector<float> largest_of(const std::vector<Map>& maps) {
-  const std::size_t channels = static_cast<std::size_t>(maps[0].channels());
-  std::vector<float> largest(maps.size() * channels);
-  parallel_for(static_cast<int>(maps.size()), [&](int k) {
-    const Map& map = maps[static_cast<std::size_t>(k)];
-    float* of = &largest[static_cast<std::size_t>(k) * channels];
-    for (int face = 0; face < 6; ++face) {
-      const ImageView<const float> texels = map.level.chart(face);
-      for (int y = 0; y < texels.height; ++y) {
-        const float* value = texels.row(y);
-        for (int x = 0; x < texels.width; ++x) {
-          for (std::size_t c = 0; c < channels; ++c, ++value) of[c] = std::max(of[c], std::fabs(*value));
-        }
-      }
-    }
-  });
-  return largest;
+double wider_node(const GaussianInterval& interval) {
+  return double{interval.node} + 1 / double{interval.per_variance};
 }
 
-/// A face of both maps of an interval, as pairs of halves.
-void store_face(const GaussianInterval& interval, int face, ImageView<const float> a,
-                ImageView<const float> b, const std::vector<ChannelScale>& scales, std::uint16_t* values) {
+/// Stores a pair of maps, whose values are channels from `first` on. Returns their largest |value| / size.
+double store(FaceGrid& a, FaceGrid& b, const GaussianInterval& interval, int first,
+             const std::vector<ChannelScale>& scales, std::uint16_t* values, const Monitor& monitor) {
   const std::size_t channels = scales.size();
-  const int side = interval.size + 2, skip = PaddedCube::kMargin - 1;
-  std::vector<float> line(static_cast<std::size_t>(side) * 2 * channels), inverse(channels);
-  for (std::size_t c = 0; c < channels; ++c) inverse[c] = 1 / scales[c].scale;
-  for (int y = 0; y < side; ++y) {
-    float* to = line.data();
-    const float* from[2] = {a.at(skip, y + skip), b.at(skip, y + skip)};
-    for (int x = 0; x < side; ++x) {
-      for (const float*& values_of_map : from) {
-        for (std::size_t c = 0; c < channels; ++c) *to++ = *values_of_map++ * inverse[c];
-      }
-    }
-    const std::int64_t texel = interval.first + (static_cast<std::int64_t>(face) * side + y) * side;
-    gaussian_kernels().to_halves(line.data(), values + static_cast<std::size_t>(texel) * 2 * channels,
-                                 line.size());
+  const std::size_t here = std::min<std::size_t>(3, channels - static_cast<std::size_t>(first));
+  const int side = interval.size + 2, skip = a.margin() - 1;
+  std::vector<float> inverse(here), largest(3);
+  for (std::size_t c = 0; c < here; ++c) inverse[c] = 1 / scales[static_cast<std::size_t>(first) + c].scale;
+  parallel_for(
+      3,
+      [&](int pair) {
+        to_spline(a, pair);
+        to_spline(b, pair);
+        std::vector<float> line(static_cast<std::size_t>(side) * 2 * here);
+        std::vector<std::uint16_t> halves(line.size());
+        float most = 0;
+        for (int face = 2 * pair; face < 2 * pair + 2; ++face) {
+          for (int y = 0; y < side; ++y) {
+            const float* from[2] = {a.at(face, skip, y + skip), b.at(face, skip, y + skip)};
+            float* to = line.data();
+            for (int x = 0; x < side; ++x) {
+              for (const float*& value : from) {
+                for (std::size_t c = 0; c < here; ++c) {
+                  *to = value[c] * inverse[c];
+                  most = std::max(most, std::fabs(*to++));
+                }
+                value += FaceGrid::kPair;
+              }
+            }
+            gaussian_kernels().to_halves(line.data(), halves.data(), line.size());
+            const std::int64_t texel = interval.first + (static_cast<std::int64_t>(face) * side + y) * side;
+            std::uint16_t* stored = values + static_cast<std::size_t>(texel) * 2 * channels + first;
+            const std::uint16_t* half = halves.data();
+            for (int x = 0; x < 2 * side; ++x, stored += channels, half += here)
+              std::copy_n(half, here, stored);
+          }
+        }
+        largest[static_cast<std::size_t>(pair)] = most;
+      },
+      without_progress(monitor));
+  double contrast = 0;
+  for (std::size_t c = 0; c < here; ++c) {
+    const ChannelScale& scale = scales[static_cast<std::size_t>(first) + c];
+    contrast = std::max(contrast,
+                        double{*std::max_element(largest.begin(), largest.end())} * scale.scale / scale.size);
   }
+  return contrast;
+}
+
+/// Channels from `first` on of a map that is a PaddedCube.
+FaceGrid grid_of(const Map& map, int first) {
+  FaceGrid grid(map.width() - 2 * PaddedCube::kMargin, PaddedCube::kMargin, LargeMemory::Contents::zero);
+  const int here = std::min(3, map.channels() - first);
+  for (int face = 0; face < 6; ++face) {
+    const ImageView<const float> texels = map.level.chart(face);
+    for (int y = 0; y < grid.side(); ++y) {
+      float* to = grid.at(face, 0, y);
+      for (int x = 0; x < grid.side(); ++x, to += FaceGrid::kPair)
+        std::copy_n(texels.at(x, y) + first, here, to);
+    }
+  }
+  return grid;
+}
+
+/// How the narrow levels are made: from grids of masses.
+struct BlurPlan {
+  std::vector<GaussianBlur> blurs;       ///< of the first intervals
+  std::vector<int> grids;                ///< of each, the level of the masses
+  int size = 0, margin = 0, levels = 1;  ///< of the masses
+};
+
+BlurPlan plan_blurs(const GaussianLevels& levels, const GaussianQuality& quality) {
+  double contrast = 1;
+  for (const ChannelScale& scale : levels.scales) contrast = std::max(contrast, double{scale.contrast});
+  BlurPlan plan;
+  std::vector<double> widest;
+  for (const GaussianInterval& interval : levels.intervals) {
+    const double wider = wider_node(interval), narrower = interval.node;
+    if (std::sqrt(wider) > quality.handover * levels.texel) break;
+    const double brighter = std::min(contrast, 2 / narrower);
+    const double reach = std::sqrt(2 * std::log(10 * brighter / quality.blur_tail));
+    plan.blurs.push_back({interval.size, PaddedCube::kMargin, {narrower, wider}, reach});
+    widest.push_back((narrower < levels.texel * levels.texel ? quality.fine_ratio : quality.ratio) *
+                     std::sqrt(narrower));
+  }
+  // Margins must not go far around the sphere: of small maps fewer levels, or none, are made so.
+  for (; !plan.blurs.empty(); plan.blurs.pop_back(), widest.pop_back()) {
+    const double finest = *std::min_element(widest.begin(), widest.end());
+    plan.grids.clear();
+    for (const double w : widest) plan.grids.push_back(static_cast<int>(std::log2(w / finest) + 1e-9));
+    plan.levels = *std::max_element(plan.grids.begin(), plan.grids.end()) + 1;
+    const int unit = 1 << (plan.levels - 1);
+    const auto whole_units = [&](double texels) { return static_cast<int>(std::ceil(texels / unit)) * unit; };
+    plan.size = whole_units(kPi / 2 / finest);
+    plan.margin = 0;
+    bool is_near = true;
+    for (std::size_t k = 0; k < plan.blurs.size() && is_near; ++k) {
+      const GaussianBlur& blur = plan.blurs[k];
+      is_near =
+          kPi / 4 * (1 + 2.0 * blur.margin / blur.size) + blur.reach * std::sqrt(blur.variances[1]) < 1.2;
+      if (!is_near) break;
+      plan.margin = std::max(
+          plan.margin, whole_units((margin_needed(blur, plan.size >> plan.grids[k]) + 3) << plan.grids[k]));
+      is_near = kPi / 4 * (1 + 2.0 * plan.margin / plan.size) < 1.35;
+    }
+    if (is_near) break;
+  }
+  return plan;
+}
+
+/// The levels from `first` on, by the pre-filter.
+std::vector<Map> prefiltered(const Map& map, const GaussianLevels& levels, std::size_t first,
+                             double tolerance, const Monitor& monitor) {
+  std::vector<PrefilterLevel> lobes;
+  for (std::size_t k = first; k < levels.intervals.size(); ++k) {
+    const GaussianInterval& interval = levels.intervals[k];
+    const int side = interval.size + 2 * PaddedCube::kMargin;
+    for (const double variance : {double{interval.node}, wider_node(interval)}) {
+      const double kappa = gaussian_concentration(variance);
+      lobes.push_back({{side, side}, lobe::AnyLobe::make("vmf,kappa=" + number_text(kappa))});
+    }
+  }
+  PrefilterOptions options;
+  options.tolerance = tolerance;
+  options.borders = false;
+  const PrefilterPlan plan({map.parameterization, {map.width(), map.height()}, map.channels()},
+                           sphere::make_parameterization<PaddedCube>(), std::move(lobes), options);
+  return plan.run(map, monitor);
 }
 
 }  // namespace
@@ -179,6 +286,10 @@ GaussianQuality quality_of(GaussianAccuracy accuracy) {
             .fine_density = 1,
             .spacing = 1.65,
             .hermite = 1,
+            .ratio = 0.55,
+            .fine_ratio = 0.85,
+            .handover = 3,
+            .blur_tail = 0.02,
             .tail = 0.05,
             .tolerance = 2e-4};
   }
@@ -189,6 +300,10 @@ GaussianQuality quality_of(GaussianAccuracy accuracy) {
           .fine_density = 0.85,
           .spacing = 1.9,
           .hermite = 1.4,
+          .ratio = 0.85,
+          .fine_ratio = 0.9,
+          .handover = 2.6,
+          .blur_tail = 0.1,
           .tail = 0.2,
           .tolerance = 2e-3};
 }
@@ -223,56 +338,33 @@ GaussianLevels make_gaussian_levels(const Map& map, GaussianAccuracy accuracy, c
                                           " texels; make the map smaller, or accept a larger error");
   levels.texels = static_cast<std::size_t>(texels);
 
-  std::vector<PrefilterLevel> lobes;
-  for (const GaussianInterval& interval : levels.intervals) {
-    const int side = interval.size + 2 * PaddedCube::kMargin;
-    for (const double variance :
-         {double{interval.node}, double{interval.node} + 1 / double{interval.per_variance}}) {
-      const double kappa = gaussian_concentration(variance);
-      lobes.push_back({{side, side}, lobe::AnyLobe::make("vmf,kappa=" + number_text(kappa))});
+  levels.scales = scales_of(map, levels.intervals[0].node);
+  const BlurPlan plan = plan_blurs(levels, quality);
+  const std::size_t fine = plan.blurs.size();
+  // First: it is what finds values that can't be worked with.
+  const std::vector<Map> wide = prefiltered(map, levels, fine, quality.tolerance, part_of(monitor, 0, 0.4));
+
+  const std::size_t values = levels.texels * 2 * static_cast<std::size_t>(map.channels());
+  levels.halves = LargeMemory(values * sizeof(std::uint16_t) + 64, LargeMemory::Contents::zero);
+  std::uint16_t* halves = reinterpret_cast<std::uint16_t*>(levels.halves.data());
+  std::vector<double> contrasts(levels.intervals.size());
+  for (int first = 0; first < map.channels(); first += 3) {
+    std::optional<MassGrid> masses;
+    if (fine > 0) masses.emplace(map, first, plan.size, plan.margin, plan.levels, without_progress(monitor));
+    for (std::size_t k = 0; k < levels.intervals.size(); ++k) {
+      std::vector<FaceGrid> pair;
+      if (k < fine) {
+        pair = blurred(masses->level(plan.grids[k]), plan.blurs[k], without_progress(monitor));
+      } else {
+        for (std::size_t i = 0; i < 2; ++i) pair.push_back(grid_of(wide[2 * (k - fine) + i], first));
+      }
+      const double contrast =
+          store(pair[0], pair[1], levels.intervals[k], first, levels.scales, halves, monitor);
+      contrasts[k] = std::max(contrasts[k], contrast);
     }
   }
-  PrefilterOptions options;
-  options.tolerance = quality.tolerance;
-  options.borders = false;
-  const PrefilterPlan plan({map.parameterization, {map.width(), map.height()}, map.channels()},
-                           sphere::make_parameterization<PaddedCube>(), std::move(lobes), options);
-  std::vector<Map> blurred = plan.run(map, part_of(monitor, 0, 0.8));
-
-  levels.scales = scales_of(map);
-  const std::vector<float> brightest = largest_of(blurred);
-  for (std::size_t k = 0; k < levels.intervals.size(); ++k) {
-    double contrast = 0;
-    for (std::size_t c = 0; c < levels.scales.size(); ++c) {
-      contrast =
-          std::max(contrast, double{brightest[2 * k * levels.scales.size() + c]} / levels.scales[c].scale);
-    }
-    levels.intervals[k].reach = GaussianTapRules::reach_for(contrast, quality);
-  }
-
-  // Halves hold up to 65504 times what a stored 1 is: a power of two times the mean, so that a constant map
-  // is stored exactly.
-  for (int c = 0; c < map.channels(); ++c) {
-    ChannelScale& scale = levels.scales[static_cast<std::size_t>(c)];
-    const float largest = brightest[static_cast<std::size_t>(c)];
-    while (largest > 8192 * scale.scale) scale.scale *= 2;
-  }
-
-  levels.halves =
-      LargeMemory(levels.texels * 2 * static_cast<std::size_t>(map.channels()) * sizeof(std::uint16_t) + 64,
-                  LargeMemory::Contents::zero);
-  std::uint16_t* values = reinterpret_cast<std::uint16_t*>(levels.halves.data());
-  parallel_for(
-      static_cast<int>(levels.intervals.size()) * 6,
-      [&](int job) {
-        const std::size_t k = static_cast<std::size_t>(job / 6);
-        const int face = job % 6;
-        const ImageView<float> a = blurred[2 * k].level.chart(face), b = blurred[2 * k + 1].level.chart(face);
-        to_spline(a);
-        to_spline(b);
-        store_face(levels.intervals[k], face, a, b, levels.scales, values);
-      },
-      part_of(monitor, 0.8, 1));
+  for (std::size_t k = 0; k < levels.intervals.size(); ++k)
+    levels.intervals[k].reach = GaussianTapRules::reach_for(contrasts[k], quality);
   return levels;
 }
 

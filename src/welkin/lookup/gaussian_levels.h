@@ -26,6 +26,10 @@ struct GaussianQuality {
   double fine_density;  ///< as `density`, of those
   double spacing;       ///< of the taps along a long axis (gaussian_taps.h)
   double hermite;       ///< how much wider the Gauss–Hermite rules are used than for 0.1 %
+  double ratio;         ///< side of the texels that a level is made from, in σ (gaussian_blur.h)
+  double fine_ratio;    ///< as `ratio`, of intervals narrower than a texel
+  double handover;      ///< σ in mean texels of the map from which on levels are made by the pre-filter
+  double blur_tail;     ///< as `tail`, of the weights of a blur
   double tail;          ///< relative error that a light past the reach of the taps may make in a dark place
   double tolerance;     ///< of the pre-filter
 };
@@ -42,9 +46,11 @@ struct GaussianInterval {
 
 /// One for each channel.
 struct ChannelScale {
-  float mean;     ///< of the map over the sphere; what it does not show is black
-  float scale;    ///< radiance of a stored 1
-  bool positive;  ///< no texel of the map is negative
+  float mean;      ///< of the map over the sphere; what it does not show is black
+  float size;      ///< the mean of its absolute value; 1 where that is 0
+  float contrast;  ///< the largest absolute value of a texel over `size`
+  float scale;     ///< radiance of a stored 1
+  bool positive;   ///< no texel of the map is negative
 };
 
 struct GaussianLevels {
