@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 
 #include "welkin/base/large_memory.h"
@@ -16,6 +17,13 @@ class FaceGrid {
   FaceGrid() = default;
   FaceGrid(int size, int margin, LargeMemory::Contents contents)
       : size_(size), margin_(margin), memory_(3 * pair_values() * sizeof(float), contents) {}
+
+  /// The same memory for faces that are no larger; its values are anything.
+  void resize(int size, int margin) {
+    assert(size + 2 * margin <= side());
+    size_ = size;
+    margin_ = margin;
+  }
 
   int size() const { return size_; }  ///< texels of a face's side
   int margin() const { return margin_; }

@@ -113,10 +113,10 @@ int margin_needed(const GaussianBlur& blur, int size) {
   return -least;
 }
 
-std::vector<FaceGrid> blurred(const FaceGrid& masses, const GaussianBlur& blur, const Monitor& monitor) {
-  std::vector<FaceGrid> results;
-  for (int i = 0; i < 2; ++i) results.emplace_back(blur.size, blur.margin, LargeMemory::Contents::unset);
-  const int side = results[0].side(), source_side = masses.side();
+void run_blur(const FaceGrid& masses, const GaussianBlur& blur, FaceGrid& first_map, FaceGrid& second_map,
+              const Monitor& monitor) {
+  FaceGrid* const results[2] = {&first_map, &second_map};
+  const int side = first_map.side(), source_side = masses.side();
   const Windows windows(blur, masses.size(), masses.margin());
   const std::array<MirrorImage, 8> from = images(source_side), to = images(side);
 
@@ -155,7 +155,7 @@ std::vector<FaceGrid> blurred(const FaceGrid& masses, const GaussianBlur& blur, 
                          const std::ptrdiff_t at = image.first + x * image.across + y * image.down;
                          for (std::size_t i = 0; i < 2; ++i) {
                            const float* sum = sums + (2 * k + i) * FaceGrid::kPair;
-                           float* value = results[i].pair(pair) + at;
+                           float* value = results[i]->pair(pair) + at;
                            for (std::size_t f = 0; f < FaceGrid::kPair; f += FaceGrid::kValues) {
                              const float inverse = sum[f + 3] > 0 ? 1 / sum[f + 3] : 0;
                              for (std::size_t c = 0; c < FaceGrid::kValues; ++c)
@@ -168,7 +168,6 @@ std::vector<FaceGrid> blurred(const FaceGrid& masses, const GaussianBlur& blur, 
                  }
                },
                monitor);
-  return results;
 }
 
 }  // namespace welkin

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "welkin/base/monitor.h"
 #include "welkin/lookup/mass_grid.h"
 
@@ -22,7 +20,8 @@ struct GaussianBlur {
 /// How far a result's texels reach into the margin of a grid of `size` texels.
 int margin_needed(const GaussianBlur& blur, int size);
 
-/// Both maps: three values a texel; the fourth is nothing.
-std::vector<FaceGrid> blurred(const FaceGrid& masses, const GaussianBlur& blur, const Monitor& monitor);
+/// Both maps, of this size: three values a texel; the fourth is nothing.
+void run_blur(const FaceGrid& masses, const GaussianBlur& blur, FaceGrid& first, FaceGrid& second,
+              const Monitor& monitor);
 
 }  // namespace welkin

@@ -10,17 +10,17 @@ namespace welkin {
 
 /// Positions to read, and with which weights: structure of arrays.
 struct GaussianTaps {
-  static constexpr std::size_t kMost = 192, kLanes = 16;
+  static constexpr std::size_t kMost = 128, kLanes = 16, kRoom = kMost + kLanes;
 
-  alignas(64) float x[kMost + kLanes], y[kMost + kLanes], z[kMost + kLanes];  ///< directions, |d| near 1
-  alignas(64) float weight[kMost + kLanes];
-  alignas(64) float size[kMost + kLanes];  ///< GaussianInterval::size
-  std::int64_t first[kMost + kLanes];      ///< GaussianInterval::first
+  alignas(64) float x[kRoom], y[kRoom], z[kRoom];  ///< directions
+  alignas(64) float weight[kRoom];
+  alignas(64) float size[kRoom];  ///< GaussianInterval::size
 
-  /// What `locate` finds: which texel is the first of 3×3, and weights of columns and rows.
-  std::int64_t texel[kMost + kLanes];
-  alignas(64) float across[3][kMost + kLanes];
-  alignas(64) float down[3][kMost + kLanes];
+  /// What `locate` finds: which texel of the interval is the first of 3×3, weights of its columns, and of its
+  /// rows times the tap's.
+  alignas(64) std::int32_t texel[kRoom];
+  alignas(64) float across[3][kRoom];
+  alignas(64) float down[3][kRoom];
 };
 
 /// The taps of a cone along its long axis: directions d cos φ + a sin φ at φ = node · σ.
@@ -75,12 +75,12 @@ struct GaussianKernels {
 
   /// Directions of a cone's taps, to x, y, z from `at` on; kLanes − 1 more values may be written.
   void (*spread)(const GaussianSpread& cone, GaussianTaps& taps, std::size_t at);
-  /// Where the taps 0 … count − 1 read texels of `width` values; asks the cache for them.
-  void (*locate)(GaussianTaps& taps, std::size_t count, const std::uint16_t* values, std::size_t width);
-  /// sums[0 … width − 1] += the weighted texels of the taps from … to − 1. Sums are written up to the next
-  /// multiple of 8.
+  /// Where the taps 0 … count − 1 lie.
+  void (*locate)(GaussianTaps& taps, std::size_t count);
+  /// sums[0 … width − 1] += the weighted texels, of `width` values, of the taps from … to − 1. `values` is
+  /// the interval's first texel, `pitch` the values of a row. Sums are written up to the next multiple of 8.
   void (*gather)(const GaussianTaps& taps, std::size_t from, std::size_t to, const std::uint16_t* values,
-                 std::size_t width, float* sums);
+                 std::size_t width, std::size_t pitch, float* sums);
   /// Numbers below 65504 to the nearest half.
   void (*to_halves)(const float* from, std::uint16_t* to, std::size_t count);
 };

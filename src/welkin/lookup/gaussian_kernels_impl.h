@@ -36,6 +36,11 @@ struct Eight {
   void add(float weight, const Eight& b) {
     for (int i = 0; i < 8; ++i) v[i] += weight * b.v[i];
   }
+  Eight times(float factor) const {
+    Eight r;
+    for (int i = 0; i < 8; ++i) r.v[i] = factor * v[i];
+    return r;
+  }
   void load_sums(const float* from) { std::memcpy(v, from, sizeof v); }
   void store_sums(float* to) const { std::memcpy(to, v, sizeof v); }
 };
@@ -50,6 +55,7 @@ struct Eight<xsimd::fma3<xsimd::avx2>> {
     return {_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)))};
   }
   void add(float weight, const Eight& b) { v = _mm256_fmadd_ps(_mm256_set1_ps(weight), b.v, v); }
+  Eight times(float factor) const { return {_mm256_mul_ps(_mm256_set1_ps(factor), v)}; }
   void load_sums(const float* from) { v = _mm256_loadu_ps(from); }
   void store_sums(float* to) const { _mm256_storeu_ps(to, v); }
 };
@@ -60,14 +66,16 @@ struct GaussianOf {
   using Pack = xsimd::batch<float, Wide>;
   using Ints = xsimd::batch<std::int32_t, Wide>;
   static constexpr std::size_t kSize = Pack::size;
+  static constexpr float kHalfPi = 1.57079632679490f;
 
   static void spread(const GaussianSpread& cone, GaussianTaps& taps, std::size_t at) {
     const Pack sigma(cone.sigma);
     for (std::size_t i = 0; i < cone.count; i += kSize) {
       const Pack angle = sigma * Pack::load_unaligned(cone.nodes + i);
-      const Pack sine = xsimd::sin(angle), cosine = xsimd::cos(angle);
+      const auto turned = xsimd::sincos(angle);
+      const Pack along = turned.first, ahead = turned.second;
       const auto store = [&](int k, float* to) {
-        xsimd::fma(sine, Pack(cone.axis[k]), cosine * Pack(cone.direction[k])).store_unaligned(to + at + i);
+        xsimd::fma(along, Pack(cone.axis[k]), ahead * Pack(cone.direction[k])).store_unaligned(to + at + i);
       };
       store(0, taps.x);
       store(1, taps.y);
@@ -75,71 +83,65 @@ struct GaussianOf {
     }
   }
 
-  /// Weights of the quadratic B-spline at the texels −1, 0, 1 about the nearest, which is f ∈ [−½, ½] away.
-  static void store_weights(const Pack& f, float (*to)[GaussianTaps::kMost + GaussianTaps::kLanes],
-                            std::size_t i) {
-    const Pack half(0.5f);
-    const Pack before = half - f, after = half + f;
-    const Pack w0 = half * before * before, w2 = half * after * after;
-    w0.store_unaligned(to[0] + i);
-    (Pack(0.75f) - f * f).store_unaligned(to[1] + i);
-    w2.store_unaligned(to[2] + i);
+  using Rows = float (*)[GaussianTaps::kRoom];
+
+  /// `factor` times the weights of the quadratic B-spline at the texels −1, 0, 1 about the nearest, which is
+  /// f ∈ [−½, ½] away.
+  static void store_weights(const Pack& f, const Pack& factor, Rows to, std::size_t i) {
+    const Pack half(0.5f), before = half - f, after = half + f, halved = half * factor;
+    (halved * before * before).store_unaligned(to[0] + i);
+    (factor * (Pack(0.75f) - f * f)).store_unaligned(to[1] + i);
+    (halved * after * after).store_unaligned(to[2] + i);
   }
 
-  static void locate(GaussianTaps& taps, std::size_t count, const std::uint16_t* values, std::size_t width) {
-    alignas(64) std::int32_t chart[kSize], column[kSize], row[kSize];
+  /// The arc tangent of |x| ≤ 1, within 2e-8 (Abramowitz & Stegun 1964, 4.4.49).
+  static Pack arc_tangent(const Pack& x) {
+    const Pack x2 = x * x;
+    Pack sum(0.0028662257f);
+    for (const float next : {-0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f, -0.1420889944f,
+                             0.1999355085f, -0.3333314528f, 1.0f}) {
+      sum = xsimd::fma(sum, x2, Pack(next));
+    }
+    return x * sum;
+  }
+
+  static void locate(GaussianTaps& taps, std::size_t count) {
     for (std::size_t i = 0; i < count; i += kSize) {
       const auto face =
           sphere::cube_face_of(Vec3<Pack>{Pack::load_unaligned(taps.x + i), Pack::load_unaligned(taps.y + i),
                                           Pack::load_unaligned(taps.z + i)});
       const Pack size = Pack::load_unaligned(taps.size + i);
-      const auto place = [&](const Pack& s, std::int32_t* to,
-                             float(*weights)[GaussianTaps::kMost + GaussianTaps::kLanes]) {
+      const auto place = [&](const Pack& s, const Pack& factor, Rows weights) {
         // Texel k of the border's numbering has its centre at k − ½; the nearest one is the middle of three.
-        const Pack at = xsimd::fma(Pack(2 / 3.14159265358979f) * xsimd::atan(s), size, Pack(0.5f) * size);
+        const Pack at = size * xsimd::fma(Pack(1 / kHalfPi), arc_tangent(s), Pack(0.5f));
         const Pack whole = xsimd::min(xsimd::max(xsimd::floor(at), Pack(0.0f)), size - Pack(1.0f));
-        store_weights(at - whole - Pack(0.5f), weights, i);
-        xsimd::to_int(whole).store_aligned(to);
+        store_weights(at - whole - Pack(0.5f), factor, weights, i);
+        return xsimd::to_int(whole);
       };
-      place(face.u, column, taps.across);
-      place(face.v, row, taps.down);
-      xsimd::to_int(face.chart).store_aligned(chart);
-      const std::size_t here = count - i < kSize ? count - i : kSize;
-      for (std::size_t k = 0; k < here; ++k) {
-        const std::int64_t side = static_cast<std::int64_t>(taps.size[i + k]) + 2;
-        const std::int64_t texel = taps.first[i + k] + (chart[k] * side + row[k]) * side + column[k];
-        taps.texel[i + k] = texel;
-        const std::uint16_t* first = values + static_cast<std::size_t>(texel) * width;
-        const std::size_t pitch = static_cast<std::size_t>(side) * width;
-        for (std::size_t r = 0; r < 3; ++r) {
-          __builtin_prefetch(first + r * pitch);
-          __builtin_prefetch(first + r * pitch + 3 * width - 1);
-        }
-      }
+      const Ints column = place(face.u, Pack(1.0f), taps.across);
+      const Ints row = place(face.v, Pack::load_unaligned(taps.weight + i), taps.down);
+      const Ints side = xsimd::to_int(size) + Ints(2);
+      ((xsimd::to_int(face.chart) * side + row) * side + column).store_unaligned(taps.texel + i);
     }
   }
 
   static void gather(const GaussianTaps& taps, std::size_t from, std::size_t to, const std::uint16_t* values,
-                     std::size_t width, float* sums) {
+                     std::size_t width, std::size_t pitch, float* sums) {
     for (std::size_t part = 0; part < width; part += 8) {
       Eight<Wide> sum;
       sum.load_sums(sums + part);
       for (std::size_t i = from; i < to; ++i) {
         const std::uint16_t* texel = values + static_cast<std::size_t>(taps.texel[i]) * width + part;
-        const std::size_t pitch = (static_cast<std::size_t>(taps.size[i]) + 2) * width;
         for (std::size_t r = 0; r < 3; ++r, texel += pitch) {
-          Eight<Wide> line = Eight<Wide>::zero();
-          line.add(taps.across[0][i], Eight<Wide>::load(texel));
+          Eight<Wide> line = Eight<Wide>::load(texel).times(taps.across[0][i]);
           line.add(taps.across[1][i], Eight<Wide>::load(texel + width));
           line.add(taps.across[2][i], Eight<Wide>::load(texel + 2 * width));
-          sum.add(taps.down[r][i] * taps.weight[i], line);
+          sum.add(taps.down[r][i], line);
         }
       }
       sum.store_sums(sums + part);
     }
   }
-
-  static constexpr float kHalfPi = 1.57079632679490f;
 
   static void splat_one(FaceGrid& grid, int face, float x, float y, const float* value) {
     // Texel k of the grid, margin included, has its centre at k + ½.
@@ -155,11 +157,15 @@ struct GaussianOf {
     weights(x - static_cast<float>(column) - 0.5f, across);
     weights(y - static_cast<float>(row) - 0.5f, down);
     float* to = grid.at(face, column - 1, row - 1);
+    const float v0 = value[0], v1 = value[1], v2 = value[2], v3 = value[3];
     for (int r = 0; r < 3; ++r, to += static_cast<std::size_t>(side) * FaceGrid::kPair) {
       for (int c = 0; c < 3; ++c) {
         const float weight = down[r] * across[c];
         float* at = to + static_cast<std::size_t>(c) * FaceGrid::kPair;
-        for (std::size_t i = 0; i < FaceGrid::kValues; ++i) at[i] += weight * value[i];
+        at[0] += weight * v0;
+        at[1] += weight * v1;
+        at[2] += weight * v2;
+        at[3] += weight * v3;
       }
     }
   }

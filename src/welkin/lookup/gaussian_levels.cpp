@@ -1,6 +1,8 @@
 #include "welkin/lookup/gaussian_levels.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -145,6 +147,19 @@ double wider_node(const GaussianInterval& interval) {
   return double{interval.node} + 1 / double{interval.per_variance};
 }
 
+/// C scaled values of each map, texel by texel.
+template <std::size_t C>
+void interleave(const float* a, const float* b, const float* scale, int texels, float* to) {
+  float factor[C];
+  std::copy_n(scale, C, factor);
+  for (int x = 0; x < texels; ++x, a += FaceGrid::kPair, b += FaceGrid::kPair, to += 2 * C) {
+    for (std::size_t c = 0; c < C; ++c) {
+      to[c] = a[c] * factor[c];
+      to[C + c] = b[c] * factor[c];
+    }
+  }
+}
+
 /// Stores a pair of maps, whose values are channels from `first` on. Returns their largest |value| / size.
 double store(FaceGrid& a, FaceGrid& b, const GaussianInterval& interval, int first,
              const std::vector<ChannelScale>& scales, std::uint16_t* values, const Monitor& monitor) {
@@ -160,29 +175,36 @@ double store(FaceGrid& a, FaceGrid& b, const GaussianInterval& interval, int fir
         to_spline(b, pair);
         std::vector<float> line(static_cast<std::size_t>(side) * 2 * here);
         std::vector<std::uint16_t> halves(line.size());
-        float most = 0;
+        std::int32_t most = 0;
         for (int face = 2 * pair; face < 2 * pair + 2; ++face) {
           for (int y = 0; y < side; ++y) {
             const float* from[2] = {a.at(face, skip, y + skip), b.at(face, skip, y + skip)};
-            float* to = line.data();
-            for (int x = 0; x < side; ++x) {
-              for (const float*& value : from) {
-                for (std::size_t c = 0; c < here; ++c) {
-                  *to = value[c] * inverse[c];
-                  most = std::max(most, std::fabs(*to++));
-                }
-                value += FaceGrid::kPair;
-              }
+            switch (here) {
+              case 1:
+                interleave<1>(from[0], from[1], inverse.data(), side, line.data());
+                break;
+              case 2:
+                interleave<2>(from[0], from[1], inverse.data(), side, line.data());
+                break;
+              default:
+                interleave<3>(from[0], from[1], inverse.data(), side, line.data());
             }
-            gaussian_kernels().to_halves(line.data(), halves.data(), line.size());
+            // Whole numbers compare as their floats do, and need no order of NaNs.
+            for (const float value : line)
+              most = std::max(most, std::bit_cast<std::int32_t>(std::fabs(value)));
             const std::int64_t texel = interval.first + (static_cast<std::int64_t>(face) * side + y) * side;
             std::uint16_t* stored = values + static_cast<std::size_t>(texel) * 2 * channels + first;
+            if (here == channels) {
+              gaussian_kernels().to_halves(line.data(), stored, line.size());
+              continue;
+            }
+            gaussian_kernels().to_halves(line.data(), halves.data(), line.size());
             const std::uint16_t* half = halves.data();
             for (int x = 0; x < 2 * side; ++x, stored += channels, half += here)
               std::copy_n(half, here, stored);
           }
         }
-        largest[static_cast<std::size_t>(pair)] = most;
+        largest[static_cast<std::size_t>(pair)] = std::bit_cast<float>(most);
       },
       without_progress(monitor));
   double contrast = 0;
@@ -194,19 +216,20 @@ double store(FaceGrid& a, FaceGrid& b, const GaussianInterval& interval, int fir
   return contrast;
 }
 
-/// Channels from `first` on of a map that is a PaddedCube.
-FaceGrid grid_of(const Map& map, int first) {
-  FaceGrid grid(map.width() - 2 * PaddedCube::kMargin, PaddedCube::kMargin, LargeMemory::Contents::zero);
+/// Channels from `first` on of a map that is a PaddedCube of the grid's size.
+void copy_channels(const Map& map, int first, FaceGrid& grid) {
   const int here = std::min(3, map.channels() - first);
   for (int face = 0; face < 6; ++face) {
     const ImageView<const float> texels = map.level.chart(face);
     for (int y = 0; y < grid.side(); ++y) {
       float* to = grid.at(face, 0, y);
-      for (int x = 0; x < grid.side(); ++x, to += FaceGrid::kPair)
-        std::copy_n(texels.at(x, y) + first, here, to);
+      const float* from = texels.row(y) + first;
+      for (int x = 0; x < grid.side(); ++x, to += FaceGrid::kPair, from += map.channels()) {
+        for (int c = 0; c < 3; ++c) to[c] = c < here ? from[c] : 0;
+        to[3] = 0;
+      }
     }
   }
-  return grid;
 }
 
 /// How the narrow levels are made: from grids of masses.
@@ -286,10 +309,10 @@ GaussianQuality quality_of(GaussianAccuracy accuracy) {
             .fine_density = 1,
             .spacing = 1.65,
             .hermite = 1,
-            .ratio = 0.55,
-            .fine_ratio = 0.85,
+            .ratio = 0.6,
+            .fine_ratio = 0.9,
             .handover = 3,
-            .blur_tail = 0.02,
+            .blur_tail = 0.03,
             .tail = 0.05,
             .tolerance = 2e-4};
   }
@@ -300,10 +323,10 @@ GaussianQuality quality_of(GaussianAccuracy accuracy) {
           .fine_density = 0.85,
           .spacing = 1.9,
           .hermite = 1.4,
-          .ratio = 0.85,
+          .ratio = 0.9,
           .fine_ratio = 0.9,
           .handover = 2.6,
-          .blur_tail = 0.1,
+          .blur_tail = 0.4,
           .tail = 0.2,
           .tolerance = 2e-3};
 }
@@ -345,18 +368,23 @@ GaussianLevels make_gaussian_levels(const Map& map, GaussianAccuracy accuracy, c
   const std::vector<Map> wide = prefiltered(map, levels, fine, quality.tolerance, part_of(monitor, 0, 0.4));
 
   const std::size_t values = levels.texels * 2 * static_cast<std::size_t>(map.channels());
-  levels.halves = LargeMemory(values * sizeof(std::uint16_t) + 64, LargeMemory::Contents::zero);
+  levels.halves = LargeMemory(values * sizeof(std::uint16_t) + 64, LargeMemory::Contents::unset);
   std::uint16_t* halves = reinterpret_cast<std::uint16_t*>(levels.halves.data());
+  std::fill_n(halves + values, 32, std::uint16_t{0});
+  int largest = 0;
+  for (const GaussianInterval& interval : levels.intervals) largest = std::max(largest, interval.size);
+  FaceGrid pair[2];
+  for (FaceGrid& grid : pair) grid = FaceGrid(largest, PaddedCube::kMargin, LargeMemory::Contents::unset);
   std::vector<double> contrasts(levels.intervals.size());
   for (int first = 0; first < map.channels(); first += 3) {
     std::optional<MassGrid> masses;
     if (fine > 0) masses.emplace(map, first, plan.size, plan.margin, plan.levels, without_progress(monitor));
     for (std::size_t k = 0; k < levels.intervals.size(); ++k) {
-      std::vector<FaceGrid> pair;
+      for (FaceGrid& grid : pair) grid.resize(levels.intervals[k].size, PaddedCube::kMargin);
       if (k < fine) {
-        pair = blurred(masses->level(plan.grids[k]), plan.blurs[k], without_progress(monitor));
+        run_blur(masses->level(plan.grids[k]), plan.blurs[k], pair[0], pair[1], without_progress(monitor));
       } else {
-        for (std::size_t i = 0; i < 2; ++i) pair.push_back(grid_of(wide[2 * (k - fine) + i], first));
+        for (std::size_t i = 0; i < 2; ++i) copy_channels(wide[2 * (k - fine) + i], first, pair[i]);
       }
       const double contrast =
           store(pair[0], pair[1], levels.intervals[k], first, levels.scales, halves, monitor);

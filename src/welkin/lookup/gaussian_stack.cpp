@@ -86,6 +86,12 @@ class GaussianStack::State {
   struct Batch;
 
   std::size_t width() const { return 2 * static_cast<std::size_t>(levels_.channels); }
+  const std::uint16_t* texels_of(const GaussianInterval& interval) const {
+    return levels_.values() + static_cast<std::size_t>(interval.first) * width();
+  }
+  std::size_t pitch_of(const GaussianInterval& interval) const {
+    return static_cast<std::size_t>(interval.size + 2) * width();
+  }
   const GaussianInterval& interval_at(float variance) const;
   const GaussianTapRules& rules_at(const GaussianInterval& interval) const {
     return rules_[static_cast<std::size_t>(interval.reach)];
@@ -150,19 +156,35 @@ void GaussianStack::State::finish(const GaussianInterval& interval, float varian
 }
 
 void GaussianStack::State::flush(Batch& batch, float* sums, float* radiance) const {
-  kernels_.locate(batch.taps, batch.used, levels_.values(), width());
+  kernels_.locate(batch.taps, batch.used);
+  // The cache is told of everything before the first texel is read.
+  for (std::size_t i = 0; i < batch.waiting; ++i) {
+    const Pending& one = batch.pending[i];
+    const std::size_t pitch = pitch_of(*one.interval), last = 3 * width() - 1;
+    for (std::size_t k = one.from; k < one.to; ++k) {
+      const std::uint16_t* texel =
+          texels_of(*one.interval) + static_cast<std::size_t>(batch.taps.texel[k]) * width();
+      for (std::size_t r = 0; r < 3; ++r, texel += pitch) {
+        __builtin_prefetch(texel);
+        __builtin_prefetch(texel + last);
+      }
+    }
+  }
   for (std::size_t i = 0; i < batch.waiting; ++i) {
     const Pending& one = batch.pending[i];
     std::fill_n(sums, width() + 8, 0.0f);
-    kernels_.gather(batch.taps, one.from, one.to, levels_.values(), width(), sums);
+    kernels_.gather(batch.taps, one.from, one.to, texels_of(*one.interval), width(), pitch_of(*one.interval),
+                    sums);
     finish(*one.interval, one.variance, sums, radiance + one.cone * static_cast<std::size_t>(channels()));
   }
   batch.used = batch.waiting = 0;
 }
 
 void GaussianStack::State::look_up(std::span<const EllipticalCone> cones, std::span<float> radiance) const {
+  bool plain = true;
   for (const EllipticalCone& cone : cones) {
     if (is_plain(cone)) continue;
+    plain = false;
     const std::string fault = fault_of(cone);
     if (!fault.empty()) throw Error(ErrorKind::bad_request, fault);
   }
@@ -182,7 +204,7 @@ void GaussianStack::State::look_up(std::span<const EllipticalCone> cones, std::s
     const GaussianTapRules& rules = rules_at(interval);
     const std::size_t count = round || variance == 0 ? 1 : rules.count(given.wide, given.narrow, spread);
     if (variance < levels_.intervals[0].lowest || count > GaussianTapRules::kMost ||
-        spread * rules.reach() > kPi || !is_plain(given)) {
+        spread * rules.reach() > kPi || !(plain || is_plain(given))) {
       flush(batch, sums, radiance.data());
       look_up_alone(straightened(given), batch, sums,
                     radiance.data() + i * static_cast<std::size_t>(channels()));
@@ -205,7 +227,6 @@ void GaussianStack::State::look_up(std::span<const EllipticalCone> cones, std::s
       std::copy_n(rule.weights, count, taps.weight + at);
     }
     std::fill_n(taps.size + at, count, static_cast<float>(interval.size));
-    std::fill_n(taps.first + at, count, interval.first);
     batch.pending[batch.waiting++] = {&interval, variance, i, at, at + count};
     batch.used += count;
   }
@@ -288,7 +309,6 @@ void GaussianStack::State::look_up_alone(const EllipticalCone& cone, Batch& batc
       }
       total += taps.weight[i];
       taps.size[i] = static_cast<float>(interval.size);
-      taps.first[i] = interval.first;
     }
     kernels_.spread({{cone.direction.x, cone.direction.y, cone.direction.z},
                      {cone.axis.x, cone.axis.y, cone.axis.z},
@@ -298,8 +318,8 @@ void GaussianStack::State::look_up_alone(const EllipticalCone& cone, Batch& batc
                     taps, 0);
     if (share > 0) {
       std::fill_n(sums, width() + 8, 0.0f);
-      kernels_.locate(taps, here, levels_.values(), width());
-      kernels_.gather(taps, 0, here, levels_.values(), width(), sums);
+      kernels_.locate(taps, here);
+      kernels_.gather(taps, 0, here, texels_of(interval), width(), pitch_of(interval), sums);
       for (std::size_t c = 0; c < width(); ++c) all[c] += sums[c];
     }
     if (share < 1) add_source(taps, here, source.data());
