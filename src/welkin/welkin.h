@@ -76,6 +76,7 @@
 #include "welkin/lookup/cone_sampler.h"
 #include "welkin/lookup/cone_shapes.h"
 #include "welkin/lookup/gaussian_stack.h"
+#include "welkin/lookup/roughness_level.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/chain.h"
