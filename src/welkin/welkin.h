@@ -84,6 +84,7 @@
 #include "welkin/map/map.h"
 #include "welkin/map/pyramid.h"
 #include "welkin/map/view_chains.h"
+#include "welkin/map_file/byte_remap.h"
 #include "welkin/map_file/chain_file.h"
 #include "welkin/map_file/kept_convention.h"
 #include "welkin/map_file/layout.h"
