@@ -107,6 +107,10 @@ std::vector<int> ViewRequest::frames_to_make() const {
              : FrameRange{static_cast<int>(std::ceil(std::max(path->keys().front().frame, 0.0))),
                           static_cast<int>(
                               std::floor(std::min(path->keys().back().frame, 1.0 * FrameNames::kLargest)))};
+  constexpr int kMost = 1000000;
+  if (range.last - range.first >= kMost)
+    throw UsageError(
+        fmt::format("--frames: {} to {} are over {} frames at once", range.first, range.last, kMost));
   std::vector<int> list;
   for (int frame = range.first; frame <= range.last; ++frame) list.push_back(frame);
   return list;
@@ -126,9 +130,14 @@ void ViewRequest::run_frames() {
       throw Error(ErrorKind::not_found, in, "there are no files of frames " + frames_text(missing));
   }
   for (const int frame : list) {
-    const MapFrame seen = frame_of(camera_at(frame));
-    check_output(names.file(frame).string(),
-                 {seen.parameterization, layouts_of(seen.parameterization).front()}, *write);
+    try {
+      const MapFrame seen = frame_of(camera_at(frame));
+      check_output(names.file(frame).string(),
+                   {seen.parameterization, layouts_of(seen.parameterization).front()}, *write);
+    } catch (const Error& error) {
+      if (!error.file().empty()) throw;
+      throw Error(error.kind(), fmt::format("frame {}: {}", frame, error.cause()));
+    }
   }
   std::optional<Worlds> worlds;
   io::WriteReport losses;

@@ -110,7 +110,8 @@ refuses 1 "such file" view card.exr no_%d.png --path none.csv
 printf 'frame,yaw\n5,0\n4,0\n' >wrong.csv
 refuses 1 "frames ascend" view card.exr no_%d.png --path wrong.csv
 printf 'frame,fov\n1,50\n4,200\n' >wide.csv
-refuses 1 "is not a number in" view card.exr no_%d.png --path wide.csv
+refuses 1 "frame [234]: .*is not a number in" view card.exr no_%d.png --path wide.csv
+refuses 2 "over 1000000 frames" view card.exr no_%d.png --frames 0-999999999
 refuses 2 "extension" view card.exr no.abc
 
 finish
