@@ -126,6 +126,7 @@ void Assemble::run() const {
     frame.orientation = orientation_for(convention_from_name(convention), shape.parameterization);
   if (match) match_exposures(pieces);
   const std::vector<Overlap> overlaps = compare_overlaps(pieces);
+  if (match && overlaps.empty()) print_warning(out, "no pictures overlap, and all keep their brightness");
   if (!ground.empty()) add_ground(pieces, ground == "mirror" ? Ground::mirrored : Ground::stretched);
   AssembleOptions options;
   options.fill = colour();
@@ -181,8 +182,9 @@ void add_assemble(CLI::App& app) {
       ->check(CLI::IsMember({"mirror", "stretch"}));
   command->add_flag("--alpha", assemble->alpha, "Write A, how much is covered");
   command
-      ->add_option("--mix", assemble->mix,
-                   "Which of pictures that overlap counts more: finer (the one with more texels per degree), even")
+      ->add_option(
+          "--mix", assemble->mix,
+          "Which of pictures that overlap counts more: finer (the one with more texels per degree), even")
       ->check(CLI::IsMember({"finer", "even"}))
       ->capture_default_str();
   command->add_option("--to", assemble->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")

@@ -20,8 +20,8 @@ struct AssembleOptions {
   std::optional<std::array<float, 3>> fill = {};
   /// Whether the map gets A, how much is covered; then there is no fill.
   bool alpha = false;
-  /// Whether pieces of one layer count by how finely they are sampled, in texels per radian, squared, across where
-  /// their texels are longest: so the sharper one prevails where they overlap.
+  /// Whether pieces of one layer count by how finely they are sampled, in texels per radian, squared, across
+  /// where their texels are longest: so the sharper one prevails where they overlap.
   bool by_fineness = true;
   Monitor monitor = {};  ///< progress and cancelling
 };
@@ -37,8 +37,8 @@ struct Assembly {
 
 /// Assembles a map of this frame. Every texel is the mean of each piece over the texel's area
 /// (Filter::automatic), so pieces keep their light where they are reduced. A piece counts by its alpha, its
-/// feather, which rises from 0 at its edges as 3t² − 2t³, and its fineness; the pieces of a layer are mixed by
-/// what they count. Their layer's opacity is the sum of alpha times feather, at most 1: two whose edges
+/// feather, which rises from 0 at its edges as 3t² − 2t³, and its fineness; the pieces of a layer are mixed
+/// by what they count. Their layer's opacity is the sum of alpha times feather, at most 1: two whose edges
 /// overlap by their feather make a whole, one that ends without neighbour fades. But where nothing is behind,
 /// no lower layer and no fill, it is the sum of alpha alone: then feathers mix pieces, and outer edges are
 /// sharp.

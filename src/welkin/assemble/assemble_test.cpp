@@ -193,7 +193,8 @@ TEST(Assemble, BackdropsAreNotCountedAsShown) {
   EXPECT_NEAR(at(made.map, {0, 0, -1}, 0), at(truth, {0, 0, -1}), 1e-5);
 }
 
-// Of two that show the same, the sharper counts by its texels per radian, squared: 16 times those of the other.
+// Of two that show the same, the sharper counts by its texels per radian, squared: 16 times those of the
+// other.
 TEST(Assemble, TheSharperPrevails) {
   std::vector<Piece> pieces;
   pieces.push_back(make_flat_panel("sharp",

@@ -56,7 +56,7 @@ WELKIN_API void check_circle(const std::string& name, const Map& picture, const 
 
 /// How a picture is placed in the world.
 struct PanelOptions {
-  Aim aim = {};
+  Aim aim = {};        ///< where its centre looks
   double feather = 0;  ///< degrees inside its edges over which it fades in, 0 … 90
   int layer = 0;       ///< Piece::layer
   double gain = 1;     ///< times its radiance, positive

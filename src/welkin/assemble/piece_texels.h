@@ -43,8 +43,9 @@ class PieceTexels {
   /// Both have room for Tile::count() texels. False, and nothing is written, where it shows none of them.
   bool make(const Tile& tile, float* colours, double* feathers) const;
 
-  /// How finely it is sampled along a direction of the world that it shows: texels per radian, squared, across
-  /// where they are longest. Near the rim of a mirror ball that is few, though they are many per steradian.
+  /// How finely it is sampled along a direction of the world that it shows: texels per radian, squared,
+  /// across where they are longest. Near the rim of a mirror ball that is few, though they are many per
+  /// steradian.
   double fineness(const Vec3d& direction) const;
 
  private:
