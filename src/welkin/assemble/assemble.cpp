@@ -81,27 +81,37 @@ class Assembler {
  private:
   int layer(std::size_t place) const { return pieces_[order_[place]].layer; }
 
+  /// A piece that shows some of a tile.
+  struct Shown {
+    std::size_t piece;
+    std::vector<float> colours;
+    std::vector<double> feathers;
+  };
+
   /// Of the pieces from … to of the order; `opacity` gets that of each piece that shows any of the tile.
   std::vector<Blend> blend(const Tile& tile, std::size_t from, std::size_t to,
                            std::vector<std::vector<double>>& opacity) const {
     const auto count = static_cast<std::size_t>(tile.count());
-    std::vector<Blend> blends(count);
-    std::vector<float> colours(4 * count);
-    std::vector<double> feathers(count);
-    const bool fades = behind_ || from > 0;
+    std::vector<Shown> all;
+    Shown next{0, std::vector<float>(4 * count), std::vector<double>(count)};
     for (std::size_t place = from; place < to; ++place) {
-      const std::size_t k = order_[place];
-      if (!texels_[k].make(tile, colours.data(), feathers.data())) continue;
-      opacity[k].resize(count);
+      next.piece = order_[place];
+      if (!texels_[next.piece].make(tile, next.colours.data(), next.feathers.data())) continue;
+      all.push_back(std::move(next));
+      next = {0, std::vector<float>(4 * count), std::vector<double>(count)};
+    }
+    std::vector<Blend> blends(count);
+    const bool fades = behind_ || from > 0, weighs = options_.by_fineness && all.size() > 1;
+    for (const Shown& shown : all) {
+      opacity[shown.piece].resize(count);
       for (std::size_t i = 0; i < count; ++i) {
-        const float* colour = &colours[4 * i];
+        const float* colour = &shown.colours[4 * i];
         const double alpha = static_cast<double>(colour[3]);
         if (!(alpha > 0)) continue;
-        const double feather = fades ? feathers[i] : std::max(feathers[i], kLeastFeather);
+        const double feather = fades ? shown.feathers[i] : std::max(shown.feathers[i], kLeastFeather);
         const double opaque = fades ? feather * alpha : alpha;
-        const double fineness =
-            options_.by_fineness && to > from + 1 ? texels_[k].fineness(tile.directions[i]) : 1;
-        opacity[k][i] = opaque;
+        const double fineness = weighs ? texels_[shown.piece].fineness(tile.directions[i]) : 1;
+        opacity[shown.piece][i] = opaque;
         blends[i].opacity += opaque;
         blends[i].weight += fineness * feather * alpha;
         for (std::size_t c = 0; c < 3; ++c)

@@ -12,19 +12,27 @@ int tiles_along(int texels) {
   return (texels + Tile::kSide - 1) / Tile::kSide;
 }
 
+double squared_distance(const Vec3d& a, const Vec3d& b) {
+  const Vec3d d = a - b;
+  return dot(d, d);
+}
+
+/// Of unit vectors that far apart, the angle.
+double angle_of(double squared_distance) {
+  return 2 * std::asin(std::min(0.5 * std::sqrt(squared_distance), 1.0));
+}
+
 /// How far texels reach from their centres, by the distances between these.
 double reach_of(const Tile& tile) {
   if (tile.width < 2 || tile.height < 2) return kPi;
   double farthest = 0;
-  for (int y = 0; y < tile.height; ++y) {
-    for (int x = 0; x < tile.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y * tile.width + x);
-      const std::size_t row = static_cast<std::size_t>(tile.width);
-      if (x > 0) farthest = std::max(farthest, angle_between(tile.directions[i - 1], tile.directions[i]));
-      if (y > 0) farthest = std::max(farthest, angle_between(tile.directions[i - row], tile.directions[i]));
-    }
+  const std::size_t row = static_cast<std::size_t>(tile.width);
+  for (std::size_t i = 0; i < tile.directions.size(); ++i) {
+    const Vec3d& d = tile.directions[i];
+    if (i % row > 0) farthest = std::max(farthest, squared_distance(tile.directions[i - 1], d));
+    if (i >= row) farthest = std::max(farthest, squared_distance(tile.directions[i - row], d));
   }
-  return farthest;
+  return angle_of(farthest);
 }
 
 }  // namespace
@@ -46,13 +54,25 @@ Tile Tiles::at(int number) const {
   tile.y = number / columns_ % rows_ * Tile::kSide;
   tile.width = std::min(Tile::kSide, frame_.size.width - tile.x);
   tile.height = std::min(Tile::kSide, frame_.size.height - tile.y);
-  tile.directions.reserve(static_cast<std::size_t>(tile.count()));
-  for (int y = 0; y < tile.height; ++y) {
-    for (int x = 0; x < tile.width; ++x) {
-      const double u = (tile.x + x + 0.5) / frame_.size.width, v = (tile.y + y + 0.5) / frame_.size.height;
-      tile.directions.push_back(to_world_ * frame_.parameterization.to_sphere(tile.chart, u, v));
-    }
+  const auto count = static_cast<std::size_t>(tile.count());
+  constexpr std::size_t kMost = sphere::padded(std::size_t{Tile::kSide} * Tile::kSide);
+  alignas(64) float u[kMost], v[kMost], x[kMost], y[kMost], z[kMost];
+  for (std::size_t i = 0; i < sphere::padded(count); ++i) {
+    const int texel = static_cast<int>(std::min(i, count - 1));
+    u[i] = (static_cast<float>(tile.x + texel % tile.width) + 0.5f) / static_cast<float>(frame_.size.width);
+    v[i] = (static_cast<float>(tile.y + texel / tile.width) + 0.5f) / static_cast<float>(frame_.size.height);
   }
+  const auto& p = frame_.parameterization;
+  p.kernels().to_sphere(p.self(), tile.chart, u, v, x, y, z, count);
+  tile.directions.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d d{static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
+    tile.directions.push_back(to_world_ * d);
+  }
+  tile.centre = tile.directions[static_cast<std::size_t>(tile.height / 2 * tile.width + tile.width / 2)];
+  double farthest = 0;
+  for (const Vec3d& d : tile.directions) farthest = std::max(farthest, squared_distance(d, tile.centre));
+  tile.radius = angle_of(farthest);
   tile.texel = reach_of(tile);
   return tile;
 }
@@ -60,23 +80,35 @@ Tile Tiles::at(int number) const {
 PieceTexels::PieceTexels(const Piece& piece, const MapFrame& frame)
     : piece_(piece), maker_(make_texels(piece.map, frame, {})) {}
 
+double PieceTexels::feather_at(const Tile& tile, std::size_t texel) const {
+  const Vec3d d = piece_.map.orientation * tile.directions[texel];
+  double depth = kPi, feather = 1;
+  for (const Cap& cap : piece_.edges) {
+    const double inside = cap.depth(d);
+    depth = std::min(depth, inside);
+    if (piece_.feather > 0) feather *= smooth_step(0, piece_.feather, inside);
+  }
+  // At an edge of the map part of a texel may be seen; an edge inside it leaves out what has its centre
+  // beyond.
+  const bool seen = depth > 0 || (depth > -tile.texel && !piece_.map.parameterization.covers(d));
+  return seen ? feather : -1;
+}
+
 bool PieceTexels::make(const Tile& tile, float* colours, double* feathers) const {
-  bool any = false, all = true;
-  for (int i = 0; i < tile.count(); ++i) {
-    const Vec3d d = piece_.map.orientation * tile.directions[static_cast<std::size_t>(i)];
-    double depth = kPi, feather = 1;
-    for (const Cap& cap : piece_.edges) {
-      const double inside = cap.depth(d);
-      depth = std::min(depth, inside);
-      if (piece_.feather > 0) feather *= smooth_step(0, piece_.feather, inside);
+  double least_depth = kPi;
+  for (const Cap& cap : piece_.edges)
+    least_depth = std::min(least_depth, cap.depth(piece_.map.orientation * tile.centre));
+  if (least_depth < -(tile.radius + tile.texel)) return false;
+  bool any = true, all = true;
+  if (least_depth > tile.radius + piece_.feather) {
+    std::fill_n(feathers, tile.count(), 1.0);
+  } else {
+    any = false;
+    for (int i = 0; i < tile.count(); ++i) {
+      feathers[i] = feather_at(tile, static_cast<std::size_t>(i));
+      any = any || feathers[i] >= 0;
+      all = all && feathers[i] >= 0;
     }
-    // At an edge of the map part of a texel may be seen; an edge inside it leaves out what has its centre
-    // beyond.
-    const bool seen = depth > 0 || (depth > -tile.texel && !piece_.map.parameterization.covers(d));
-    any = any || seen;
-    all = all && seen;
-    // −1: nothing is seen of it.
-    feathers[i] = seen ? feather : -1;
   }
   if (!any) return false;
   const ImageView<float> out{colours, tile.width, tile.height, 4, tile.width * std::ptrdiff_t{4}};

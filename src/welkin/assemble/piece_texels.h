@@ -16,6 +16,8 @@ struct Tile {
 
   int chart = 0, x = 0, y = 0, width = 0, height = 0;
   std::vector<Vec3d> directions;  ///< of the texels' centres, row by row
+  Vec3d centre{0, 0, 1};          ///< of the tile
+  double radius = 0;              ///< radians: no texel's centre is farther from the tile's
   double texel = 0;               ///< radians: no farther from a texel's centre does it reach
 
   int count() const { return width * height; }
@@ -49,6 +51,9 @@ class PieceTexels {
   double fineness(const Vec3d& direction) const;
 
  private:
+  /// Of a tile's texel: its feather, or −1 where nothing is seen of it.
+  double feather_at(const Tile& tile, std::size_t texel) const;
+
   const Piece& piece_;
   std::unique_ptr<TexelMaker> maker_;
 };
