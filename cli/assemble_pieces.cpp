@@ -77,6 +77,15 @@ std::optional<std::string> shape_of(const PieceRequest& request) {
   return shape;
 }
 
+/// Whether a picture of it holds a disc, which a photograph may hold anywhere; not the frame of a lens, whose
+/// aspect is that of the picture.
+bool has_disc(const sphere::AnyParameterization& p) {
+  for (const Parameter& each : p.parameters()) {
+    if (each.name == "aspect") return false;
+  }
+  return p.traits().projection == sphere::Projection::disc && !p.full_charts();
+}
+
 PanelOptions panel_options(const PieceRequest& request) {
   const Settings settings(request);
   PanelOptions options;
@@ -221,8 +230,7 @@ ReadPiece read_piece(const PieceRequest& request) {
   how.image.colour = colour_of(request);
   // Whatever shape a picture of one chart is read as, its pixels are the same.
   const std::optional<std::string> shape = shape_of(request);
-  const bool is_disc =
-      shape && parse_map_shape(*shape).parameterization.traits().projection == sphere::Projection::disc;
+  const bool is_disc = shape && has_disc(parse_map_shape(*shape).parameterization);
   how.shape = is_flat(request) || is_ball || is_disc ? std::optional<std::string>("latlong") : shape;
   if (how.shape) how.orientation = Matrix3{};
   MapReader reader(request.file, how);

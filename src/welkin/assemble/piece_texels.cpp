@@ -99,7 +99,7 @@ bool PieceTexels::make(const Tile& tile, float* colours, double* feathers) const
   for (const Cap& cap : piece_.edges)
     least_depth = std::min(least_depth, cap.depth(piece_.map.orientation * tile.centre));
   if (least_depth < -(tile.radius + tile.texel)) return false;
-  bool any = true, all = true;
+  bool any = true;
   if (least_depth > tile.radius + piece_.feather) {
     std::fill_n(feathers, tile.count(), 1.0);
   } else {
@@ -107,7 +107,6 @@ bool PieceTexels::make(const Tile& tile, float* colours, double* feathers) const
     for (int i = 0; i < tile.count(); ++i) {
       feathers[i] = feather_at(tile, static_cast<std::size_t>(i));
       any = any || feathers[i] >= 0;
-      all = all && feathers[i] >= 0;
     }
   }
   if (!any) return false;
@@ -116,20 +115,7 @@ bool PieceTexels::make(const Tile& tile, float* colours, double* feathers) const
   part.chart = tile.chart;
   part.walk.start_x = tile.x;
   part.walk.start_y = tile.y;
-  if (all) {
-    maker_->make(part, out);
-  } else {
-    // Texels that see nothing of it are slow to make: the filter looks for it in every part of them.
-    std::fill_n(colours, 4 * tile.count(), 0.0f);
-    for (int y = 0; y < tile.height; ++y) {
-      const double* row = feathers + y * tile.width;
-      const auto seen = [](double feather) { return feather >= 0; };
-      const int from = static_cast<int>(std::find_if(row, row + tile.width, seen) - row);
-      int to = tile.width;
-      while (to > from && !seen(row[to - 1])) --to;
-      if (from < to) maker_->make(part.from(from, y), out.part(from, y, to - from, 1));
-    }
-  }
+  maker_->make(part, out);
   const float gain = static_cast<float>(piece_.gain);
   for (int i = 0; i < tile.count(); ++i) {
     for (int c = 0; c < 3; ++c) colours[4 * i + c] *= gain;
