@@ -37,6 +37,22 @@ void fill(Map& map, float value) {
   }
 }
 
+// A source that shows a part of the sphere sends what it shows and no more, whether that is a strip of an
+// eighth of a target's texel, found by 32×32 points, or a disc far from most texels.
+TEST(ResampleParts, OfTheSphereSendTheirSolidAngle) {
+  for (const char* name : {"latlong,left=1,right=1.703125", "latlong,left=20,right=100,top=50,bottom=-35",
+                           "fisheye-equidistant,fov=60", "sky-latlong", "half-cube"}) {
+    const auto p = sphere::AnyParameterization::make(name);
+    Map source(p, 32, 32, 1), target(sphere::AnyParameterization::make("latlong"), 64, 32, 1);
+    fill(source, 1 + kDark);
+    fill_borders(source);
+    ResampleOptions options;
+    options.fill = {kDark};
+    resample(source, target, options);
+    EXPECT_NEAR(light_of(target), p.coverage(), 0.01 * p.coverage()) << name;
+  }
+}
+
 /// A dark map with one lit texel.
 Map with_light(const std::string& name, int size, int chart, int x, int y) {
   Map map = make_map(name, size);

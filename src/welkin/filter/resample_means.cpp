@@ -221,7 +221,9 @@ class MeanMaker final : public TexelMaker {
               continue;
             }
             maker.outline_even(*this, column, row, corners, work);
-          } else if (maker.samples_.is_outside(chart, x + column, y + row)) {
+          } else if (maker.samples_.is_outside(chart, x + column, y + row) ||
+                     (none_covered(corners, row, column) &&
+                      maker.samples_.misses(chart, x + column, y + row, work.batch))) {
             maker.samples_.leave(chart, x + column, y + row, work.batch, to);
             continue;
           } else if (maker.samples_.huge() || !maker.outline_.trace(chart, x + column, y + row, work.loops)) {
@@ -236,6 +238,16 @@ class MeanMaker final : public TexelMaker {
         for (int down = 0; down < kQuadratureRules; ++down)
           make_alike(work.alike[across][down], across, down, maker, work);
       }
+    }
+
+    /// Whether the source shows none of a texel's corners and of its neighbours'.
+    static bool none_covered(const Corners& corners, int row, int column) {
+      for (int j = row; j <= row + 1 + 2 * kAround; ++j) {
+        for (int i = column; i <= column + 1 + 2 * kAround; ++i) {
+          if (corners.weight[j][i] >= 0) return false;
+        }
+      }
+      return true;
     }
 
     static void make_alike(const Work::Alike& alike, int across, int down, const MeanMaker& maker,

@@ -1,8 +1,10 @@
 #include "welkin/filter/texel_samples.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "welkin/filter/footprint.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin {
 namespace {
@@ -11,13 +13,31 @@ namespace {
 constexpr int kSamples = 32, kManySamples = 256;
 static_assert(kBatch % kSamples == 0 && kBatch % kManySamples == 0);
 
+/// Whether a source shows all directions within a few texels of the target's of the middle of its first
+/// chart: then what it shows is no strip that could pass between points.
+bool is_broad(const sphere::AnyParameterization& source, const MapFrame& target) {
+  const Vec3d middle = source.to_sphere(0, 0.5, 0.5);
+  const double reach = 3 * mean_texel(target.parameterization, target.size);
+  if (reach > 1) return false;
+  const Vec3d side = normalize(cross(middle, std::fabs(middle.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0}));
+  const Vec3d other = cross(middle, side);
+  constexpr int kAzimuths = 32;
+  for (int i = 0; i < kAzimuths; ++i) {
+    const double azimuth = 2 * kPi * i / kAzimuths;
+    const Vec3d across = std::cos(azimuth) * side + std::sin(azimuth) * other;
+    if (!source.covers(std::cos(reach) * middle + std::sin(reach) * across)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TexelSamples::TexelSamples(const ResampleJob& job, const LevelView& level)
     : job_(job),
       view_(level),
       huge_(std::min(job.target.size.width, job.target.size.height) <= 2),
-      source_is_full_(job.source.parameterization.full_charts()) {}
+      source_is_full_(job.source.parameterization.full_charts()),
+      source_is_broad_(is_broad(job.source.parameterization, job.target)) {}
 
 bool TexelSamples::sees_many(int chart, int x, int y) const {
   if (source_is_full_ || !job_.source_is_whole) return false;
@@ -34,6 +54,20 @@ bool TexelSamples::is_outside(int chart, int x, int y) const {
       return false;
   }
   return true;
+}
+
+bool TexelSamples::misses(int chart, int x, int y, Batch& batch) const {
+  if (huge_ || !source_is_broad_) return false;
+  constexpr int kSide = 8;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    batch.u[i] = (static_cast<float>(x) + (static_cast<float>(i % kSide) + 0.5f) / kSide) /
+                 static_cast<float>(job_.target.size.width);
+    batch.v[i] = (static_cast<float>(y) + (static_cast<float>(i / kSide) + 0.5f) / kSide) /
+                 static_cast<float>(job_.target.size.height);
+  }
+  batch.locate(chart, kSide * kSide);
+  const float* covered = batch.covered(kSide * kSide);
+  return std::none_of(covered, covered + kSide * kSide, [](float each) { return each > 0; });
 }
 
 void TexelSamples::leave(int chart, int x, int y, Batch& batch, float* out) const {

@@ -17,7 +17,9 @@ class TexelSamples {
   bool huge() const { return huge_; }
   /// Whether none of nine points of a texel is valid in the target.
   bool is_outside(int chart, int x, int y) const;
-  /// What a texel outside the valid part of a chart has.
+  /// Whether the source shows none of 8×8 points of a texel: for those all around which it shows nothing.
+  bool misses(int chart, int x, int y, Batch& batch) const;
+  /// What a texel has that lies outside the valid part of a chart, or sees nothing of the source.
   void leave(int chart, int x, int y, Batch& batch, float* out) const;
   /// The mean over a grid of points of the texel.
   void sample(int chart, int x, int y, Batch& batch, std::vector<double>& sum, float* out) const;
@@ -30,6 +32,7 @@ class TexelSamples {
   const LevelView view_;
   const bool huge_;
   const bool source_is_full_;
+  const bool source_is_broad_;  ///< no texel's neighbours lie on both sides of what it shows
 };
 
 }  // namespace welkin
