@@ -59,7 +59,8 @@ class Settings {
 };
 
 bool is_flat(const PieceRequest& request) {
-  return request.kind == PieceRequest::Kind::panel && !request.settings.contains("as");
+  return request.kind == PieceRequest::Kind::panel && request.settings.contains("fov") &&
+         !request.settings.contains("as");
 }
 
 /// The shape of a picture that isn't flat: `as`, and the settings that are its parameters. None: as the file
@@ -212,14 +213,11 @@ void check_piece(const PieceRequest& request) {
   panel_options(request);
   colour_of(request);
   if (request.kind == PieceRequest::Kind::ball) ball_options(request);
-  if (circle_of(request) && (is_flat(request) || settings.text("as") == "auto"))
+  if (request.kind != PieceRequest::Kind::ball && circle_of(request) &&
+      settings.text("as").value_or("auto") == "auto")
     settings.refuse("x, y and radius: are of a disc, which as=fisheye-equidistant… says");
   if (!is_flat(request)) return;
   const std::optional<double> fov = settings.number("fov");
-  if (!fov)
-    settings.refuse(
-        "say its horizontal field of view, fov=DEGREES, or what it is if it isn't flat: "
-        "as=auto, as=fisheye-equidistant…");
   if (!(*fov >= 0.001 && *fov <= 179))
     settings.refuse(fmt::format("fov: a flat picture's is 0.001 to 179 degrees, not {}", number_text(*fov)));
 }
@@ -235,6 +233,13 @@ ReadPiece read_piece(const PieceRequest& request) {
   if (how.shape) how.orientation = Matrix3{};
   MapReader reader(request.file, how);
   print_warnings(request.file, reader.info().image.warnings);
+  const bool is_known = how.shape || request.settings.contains("as") ||
+                        (reader.info().shape && reader.info().reason.starts_with("declared"));
+  if (!is_known && request.kind == PieceRequest::Kind::panel)
+    Settings(request).refuse(
+        "does not declare what it shows: say its horizontal field of view, fov=DEGREES, or what it is if it "
+        "isn't "
+        "flat, as=fisheye-equidistant…");
   Map map = reader.read();
   if (is_ball) {
     BallPiece ball = make_ball_piece(request.file, std::move(map), ball_options(request));

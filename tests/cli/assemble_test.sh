@@ -46,7 +46,13 @@ must -j 1 assemble half1.exr --list list/faces.json --to half-cube
 same half.exr half1.exr 0
 
 refuses 2 'give at least one picture' assemble x.exr
-refuses 2 'say its horizontal field of view' assemble x.exr --panel list/face_pz.exr
+must convert axes.exr undeclared.pfm --size 64x64
+refuses 2 'say its horizontal field of view' assemble x.exr --panel undeclared.pfm
+# A file that declares what it shows needs no setting, and lies where it says.
+must convert axes.exr window.exr --to latlong,left=-40,right=60,top=30,bottom=-20 --size 200
+must assemble window_world.exr --panel window.exr,feather=2 --size 256
+near 'a window' "$(sample_along window_world.exr 0,0,1)" "${card_colour[0,0,1]}" 0.002
+near 'beside it' "$(sample_along window_world.exr -1,0,0)" "0 0 0" 0
 for fov in 0 180 -5 nan; do refuses 2 'fov: ' assemble x.exr --panel "list/face_pz.exr,fov=$fov"; done
 refuses 2 "unknown setting 'yav'; did you mean 'yaw'" assemble x.exr --panel list/face_pz.exr,fov=60,yav=3
 refuses 2 'feather: is 0 to 90' assemble x.exr --panel list/face_pz.exr,fov=60,feather=91
