@@ -12,7 +12,6 @@
 #include "welkin/lookup/cone_shapes.h"
 #include "welkin/lookup/gaussian_boxes.h"
 #include "welkin/lookup/probe_row.h"
-#include "welkin/lookup/square_octahedron.h"
 #include "welkin/lookup/texel_shape.h"
 #include "welkin/map/borders.h"
 #include "welkin/math/angles.h"
@@ -154,18 +153,10 @@ struct Method {
   OwnMean own;
 };
 
-bool takes(ConeFilter filter, const Map& map) {
-  const auto& p = map.parameterization;
-  if (filter == ConeFilter::mirrored) return is_square_octahedron(p);
-  if (filter == ConeFilter::sat)
-    return is_square_octahedron(p) || p.traits().cube_faces || p.traits().latlong_grid;
-  return true;
-}
-
 Method method(const std::string& name, const ConeSamplerOptions& options, OwnMean own) {
   return {name,
           [options](const Map& map) -> LookUp {
-            if (!takes(options.filter, map)) return {};
+            if (!is_usable(options.filter, map.parameterization)) return {};
             return [sampler = ConeSampler::borrow(map, options)](std::span<const EllipticalCone> cones,
                                                                  std::span<float> radiance) {
               sampler.look_up(cones, radiance);

@@ -121,7 +121,8 @@ void add_plot_distortion(CLI::App& plot) {
 
 void add_plot(CLI::App& app) {
   CLI::App* plot = app.add_subcommand(
-      "plot", "Plot texel densities, lobes, reflectances, a map's pyramid or circles on paraboloids");
+      "plot",
+      "Plot texel densities, lobes, reflectances, a map's pyramid, its look-ups or circles on paraboloids");
   plot->require_subcommand(1);
 
   auto density = std::make_shared<PlotDensity>();
@@ -155,6 +156,7 @@ void add_plot(CLI::App& app) {
     mips->run();
   });
 
+  add_plot_cones(*plot);
   add_plot_lobe(*plot);
   add_plot_fresnel(*plot);
   add_plot_distortion(*plot);

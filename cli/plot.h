@@ -4,6 +4,8 @@
 
 namespace welkin::cli {
 
+/// Adds `cones` to `plot`.
+void add_plot_cones(CLI::App& plot);
 /// Adds `fresnel` to `plot`.
 void add_plot_fresnel(CLI::App& plot);
 /// Adds `lobe` to `plot`.

@@ -100,6 +100,7 @@
 #include "welkin/measure/density.h"
 #include "welkin/measure/energy.h"
 #include "welkin/measure/statistics.h"
+#include "welkin/plot/draw_cone_sheet.h"
 #include "welkin/plot/draw_density.h"
 #include "welkin/plot/draw_distortion.h"
 #include "welkin/plot/draw_fresnel.h"

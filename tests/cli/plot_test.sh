@@ -24,6 +24,16 @@ matches '"format": "png"' info picture.png --header --json
 must plot mips card.exr mips.png
 matches '"format": "png"' info mips.png --header --json
 
+# Look-ups over cones: a tile for each filter that the map takes, or those that are asked for.
+must plot cones card.exr cones.png --size 32
+matches '"width": 158' info cones.png --header --json
+must plot cones card.exr two.png --size 32 --filter hybrid --filter probes --to fisheye-equidistant
+matches '"width": 120' info two.png --header --json
+refuses 2 "did you mean 'hybrid'" plot cones card.exr out.png --filter hybird
+refuses 2 "has several charts" plot cones card.exr out.png --to cube
+refuses 1 "mirrored cell is for octahedral" plot cones card.exr out.png --filter mirrored
+refuses 1 "cannot be opened" plot cones missing.exr out.png
+
 # Lobes: closed forms (docs/lobes.md).
 lobe_number() { "$welkin" plot lobe --lobe "$1" --json | number "$2"; }
 near "integral of lambert" "$(lobe_number lambert integral)" 3.14159265 1e-7

@@ -8,6 +8,7 @@
 #include "welkin/base/error.h"
 #include "welkin/lookup/cone_filters.h"
 #include "welkin/lookup/cone_shapes.h"
+#include "welkin/lookup/square_octahedron.h"
 
 namespace welkin {
 namespace {
@@ -98,6 +99,14 @@ ConeFilter cone_filter_from_name(std::string_view name) {
 
 std::string_view name_of(ConeFilter filter) {
   return entry_of(filter).name;
+}
+
+bool is_usable(ConeFilter filter, const sphere::AnyParameterization& p) {
+  if (filter == ConeFilter::mirrored) return is_square_octahedron(p);
+  if (filter == ConeFilter::sat) {
+    return is_square_octahedron(p) || p.traits().cube_faces || p.traits().latlong_grid;
+  }
+  return true;
 }
 
 const std::vector<std::string>& cone_filter_names() {

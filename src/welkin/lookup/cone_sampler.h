@@ -41,6 +41,9 @@ WELKIN_API std::string_view name_of(ConeFilter filter);
 /// All of them.
 WELKIN_API const std::vector<std::string>& cone_filter_names();
 
+/// Whether a filter can be used on maps of a parameterization: all can on all, but `mirrored` and `sat`.
+WELKIN_API bool is_usable(ConeFilter filter, const sphere::AnyParameterization& parameterization);
+
 /// How cones are looked up.
 struct ConeSamplerOptions {
   ConeFilter filter = ConeFilter::hybrid;  ///< one for all look-ups

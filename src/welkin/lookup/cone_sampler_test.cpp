@@ -12,7 +12,6 @@
 #include "welkin/filter/sampler.h"
 #include "welkin/lookup/cone_reference.h"
 #include "welkin/lookup/cone_shapes.h"
-#include "welkin/lookup/square_octahedron.h"
 #include "welkin/map/map_cases.h"
 #include "welkin/math/angles.h"
 
@@ -21,12 +20,8 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// Whether a filter takes a parameterization.
 bool takes(const std::string& filter, const Map& map) {
-  const auto& p = map.parameterization;
-  if (filter == "mirrored") return is_square_octahedron(p);
-  if (filter == "sat") return is_square_octahedron(p) || p.traits().cube_faces || p.traits().latlong_grid;
-  return true;
+  return is_usable(cone_filter_from_name(filter), map.parameterization);
 }
 
 ConeSamplerOptions options_of(const std::string& filter) {
