@@ -1,4 +1,9 @@
+#include <fmt/core.h>
+
+#include <cstdio>
+
 #include "plot.h"
+#include "welkin/io/capabilities.h"
 #include "welkin/plot/draw_cone_sheet.h"
 
 namespace welkin::cli {
@@ -20,9 +25,18 @@ struct PlotCones {
       throw UsageError("--to: " + sheet.camera + " has several charts; a tile shows one");
     check_output(out, parse_map_shape("latlong"));
     const LoadedMap loaded = read.read(in);
+    if (sheet.filters.empty()) sheet.filters = usable_cone_filters(loaded.map.parameterization);
     const Image picture = draw_cone_sheet(loaded.map, sheet);
     const io::WritePart part{"", picture.view(), {"R", "G", "B"}};
-    io::write(out, {&part, 1});
+    io::WriteOptions options;
+    if (io::capabilities_for(out).holds(io::PixelType::uint8)) options.type = io::PixelType::uint8;
+    io::write(out, {&part, 1}, options);
+    // Not among the picture's bytes.
+    FILE* lines = format.empty() ? stdout : stderr;
+    fmt::print(lines, "{:>2} {}\n", 0, "256 rays");
+    for (std::size_t i = 0; i < sheet.filters.size(); ++i) {
+      fmt::print(lines, "{:>2} {}\n", i + 1, name_of(sheet.filters[i]));
+    }
   }
 };
 

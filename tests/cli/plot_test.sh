@@ -32,7 +32,7 @@ matches '"width": 120' info two.png --header --json
 refuses 2 "did you mean 'hybrid'" plot cones card.exr out.png --filter hybird
 refuses 2 "has several charts" plot cones card.exr out.png --to cube
 refuses 1 "mirrored cell is for octahedral" plot cones card.exr out.png --filter mirrored
-refuses 1 "cannot be opened" plot cones missing.exr out.png
+refuses 1 "No such file" plot cones missing.exr out.png
 
 # Lobes: closed forms (docs/lobes.md).
 lobe_number() { "$welkin" plot lobe --lobe "$1" --json | number "$2"; }

@@ -82,17 +82,16 @@ void draw_filter(const Map& map, const MapFrame& camera, ConeFilter filter, floa
   });
 }
 
-/// All filters that take the map.
-std::vector<ConeFilter> usable_filters(const Map& map) {
+}  // namespace
+
+std::vector<ConeFilter> usable_cone_filters(const sphere::AnyParameterization& parameterization) {
   std::vector<ConeFilter> filters;
   for (const std::string& name : cone_filter_names()) {
     const ConeFilter filter = cone_filter_from_name(name);
-    if (is_usable(filter, map.parameterization)) filters.push_back(filter);
+    if (is_usable(filter, parameterization)) filters.push_back(filter);
   }
   return filters;
 }
-
-}  // namespace
 
 Image draw_cone_sheet(const Map& map, const ConeSheet& sheet) {
   const auto camera = sphere::AnyParameterization::make(sheet.camera);
@@ -103,7 +102,8 @@ Image draw_cone_sheet(const Map& map, const ConeSheet& sheet) {
   const ChartSize size{std::max(1, static_cast<int>(std::lround(sheet.size * std::min(1.0, aspect)))),
                        std::max(1, static_cast<int>(std::lround(sheet.size / std::max(1.0, aspect))))};
   const MapFrame frame(camera, size);
-  const std::vector<ConeFilter> filters = sheet.filters.empty() ? usable_filters(map) : sheet.filters;
+  const std::vector<ConeFilter> filters =
+      sheet.filters.empty() ? usable_cone_filters(map.parameterization) : sheet.filters;
   const float scale = static_cast<float>(std::exp2(sheet.exposure));
 
   const int tiles = static_cast<int>(filters.size()) + 1, columns = std::min(kColumns, tiles),
@@ -115,15 +115,12 @@ Image draw_cone_sheet(const Map& map, const ConeSheet& sheet) {
               top = kGap + i / columns * (size.height + kCaption + kGap);
     fill_box(picture, {left, top, size.width, size.height}, kBlack);
     const ImageView<float> tile = picture.view().part(left, top, size.width, size.height);
-    std::string name = std::to_string(kRays * kRays) + " rays";
     if (i == 0) {
       draw_rays(map, frame, scale, tile);
     } else {
-      const ConeFilter filter = filters[static_cast<std::size_t>(i - 1)];
-      draw_filter(map, frame, filter, scale, tile);
-      name = name_of(filter);
+      draw_filter(map, frame, filters[static_cast<std::size_t>(i - 1)], scale, tile);
     }
-    draw_text(picture, {name, left + 0.5 * size.width, top + size.height + 0.5 * kCaption, 9});
+    draw_text(picture, {std::to_string(i), left + 0.5 * size.width, top + size.height + 0.5 * kCaption, 9});
   }
   return picture;
 }
