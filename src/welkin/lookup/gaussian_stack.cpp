@@ -84,6 +84,12 @@ class GaussianStack::State {
  private:
   struct Pending;
   struct Batch;
+  static constexpr std::size_t kFewChannels = 4;
+
+  /// What the levels have in a cone of this σ²; below them the source's bilinear interpolation has the rest.
+  float share_of(float variance) const {
+    return std::clamp((variance - bilinear_) / (levels_.intervals[0].lowest - bilinear_), 0.0f, 1.0f);
+  }
 
   std::size_t width() const { return 2 * static_cast<std::size_t>(levels_.channels); }
   const std::uint16_t* texels_of(const GaussianInterval& interval) const {
@@ -114,7 +120,8 @@ class GaussianStack::State {
 /// A cone whose taps are in the batch.
 struct GaussianStack::State::Pending {
   const GaussianInterval* interval;
-  float variance;
+  float variance;  ///< σ² at which the levels are looked up
+  float share;     ///< that the levels have; the source has the rest
   std::size_t cone, from, to;
 };
 
@@ -170,12 +177,39 @@ void GaussianStack::State::flush(Batch& batch, float* sums, float* radiance) con
       }
     }
   }
+  const std::size_t channels = static_cast<std::size_t>(levels_.channels);
   for (std::size_t i = 0; i < batch.waiting; ++i) {
     const Pending& one = batch.pending[i];
-    std::fill_n(sums, width() + 8, 0.0f);
-    kernels_.gather(batch.taps, one.from, one.to, texels_of(*one.interval), width(), pitch_of(*one.interval),
-                    sums);
-    finish(*one.interval, one.variance, sums, radiance + one.cone * static_cast<std::size_t>(channels()));
+    float* out = radiance + one.cone * channels;
+    if (one.share > 0) {
+      std::fill_n(sums, width() + 8, 0.0f);
+      kernels_.gather(batch.taps, one.from, one.to, texels_of(*one.interval), width(),
+                      pitch_of(*one.interval), sums);
+      finish(*one.interval, one.variance, sums, out);
+    } else {
+      std::fill_n(out, channels, 0.0f);
+    }
+  }
+  // Those that see the source too: the taps of neighbouring cones lie side by side.
+  for (std::size_t i = 0; i < batch.waiting; ++i) {
+    std::size_t end = i;
+    while (end < batch.waiting && batch.pending[end].share < 1) ++end;
+    if (end == i) continue;
+    float values[kFewChannels * GaussianTaps::kMost];
+    const GaussianTaps& taps = batch.taps;
+    const std::size_t first = batch.pending[i].from, count = batch.pending[end - 1].to - first;
+    source_.look_up(
+        DirectionArrays{{taps.x + first, count}, {taps.y + first, count}, {taps.z + first, count}}, values);
+    for (; i < end; ++i) {
+      const Pending& one = batch.pending[i];
+      float* out = radiance + one.cone * channels;
+      for (std::size_t c = 0; c < channels; ++c) {
+        float sum = 0;
+        for (std::size_t k = one.from; k < one.to; ++k)
+          sum += taps.weight[k] * values[(k - first) * channels + c];
+        out[c] = one.share * out[c] + (1 - one.share) * sum;
+      }
+    }
   }
   batch.used = batch.waiting = 0;
 }
@@ -198,13 +232,19 @@ void GaussianStack::State::look_up(std::span<const EllipticalCone> cones, std::s
   for (std::size_t i = 0; i < cones.size(); ++i) {
     const EllipticalCone& given = cones[i];
     const bool round = !(given.wide > given.narrow);
-    const float variance = given.narrow * given.narrow;
-    const float spread = round ? 0 : std::sqrt(given.wide * given.wide - variance);
+    const float variance = given.narrow * given.narrow, lowest = levels_.intervals[0].lowest;
+    const float share = variance < lowest ? share_of(variance) : 1;
     const GaussianInterval& interval = interval_at(variance);
     const GaussianTapRules& rules = rules_at(interval);
-    const std::size_t count = round || variance == 0 ? 1 : rules.count(given.wide, given.narrow, spread);
-    if (variance < levels_.intervals[0].lowest || count > GaussianTapRules::kMost ||
-        spread * rules.reach() > kPi || !(plain || is_plain(given))) {
+    std::size_t count = 1;
+    float spread = 0;
+    if (!round) {
+      spread = std::sqrt(given.wide * given.wide - variance);
+      const float tap = std::max(given.narrow, narrowest_tap_);
+      count = rules.count(std::sqrt(spread * spread + tap * tap), tap, spread);
+    }
+    if (count > GaussianTapRules::kMost || spread * rules.reach() > kPi || !(plain || is_plain(given)) ||
+        (share < 1 && width() > 2 * kFewChannels)) {
       flush(batch, sums, radiance.data());
       look_up_alone(straightened(given), batch, sums,
                     radiance.data() + i * static_cast<std::size_t>(channels()));
@@ -227,7 +267,7 @@ void GaussianStack::State::look_up(std::span<const EllipticalCone> cones, std::s
       std::copy_n(rule.weights, count, taps.weight + at);
     }
     std::fill_n(taps.size + at, count, static_cast<float>(interval.size));
-    batch.pending[batch.waiting++] = {&interval, variance, i, at, at + count};
+    batch.pending[batch.waiting++] = {&interval, std::max(variance, lowest), share, i, at, at + count};
     batch.used += count;
   }
   flush(batch, sums, radiance.data());
@@ -251,7 +291,8 @@ void GaussianStack::State::add_source(const GaussianTaps& taps, std::size_t coun
   }
 }
 
-/// A cone narrower than the levels, or with so many taps that they go all around or don't fit a batch.
+/// A cone with so many taps that they go all around or don't fit a batch, or with odd numbers; and narrow
+/// ones of many channels.
 void GaussianStack::State::look_up_alone(const EllipticalCone& cone, Batch& batch, float* sums,
                                          float* out) const {
   GaussianTaps& taps = batch.taps;
@@ -259,8 +300,7 @@ void GaussianStack::State::look_up_alone(const EllipticalCone& cone, Batch& batc
   const float variance = cone.narrow * cone.narrow;
   const float seen = std::max(variance, levels_.intervals[0].lowest);
   const GaussianInterval& interval = interval_at(seen);
-  const float share =
-      std::clamp((variance - bilinear_) / (levels_.intervals[0].lowest - bilinear_), 0.0f, 1.0f);
+  const float share = share_of(variance);
 
   // Steps along the great circle: all around it, or as far as the taps reach.
   const double sigma =

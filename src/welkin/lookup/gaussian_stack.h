@@ -35,7 +35,8 @@ struct GaussianStackOptions {
 /// looked up over elliptical cones, as a sum of looked up levels along the cone's long axis.
 ///
 /// Never changes after it is made; all of it can be used from many threads at once. Cheap to copy: copies
-/// share the pixels. Look-ups take no memory.
+/// share the pixels. Look-ups take no memory, save those over cones of a hundred times their narrow side's
+/// length, and of more than 32 channels.
 ///
 /// **Cones** are the world's: the map's `orientation` is applied. They may be of any width: the narrower than
 /// a texel, the nearer to the bilinear interpolation of the map, as Sampler has it; of 90° and more nearly
