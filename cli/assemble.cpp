@@ -35,16 +35,22 @@ struct Assemble {
 };
 
 std::optional<std::array<float, 3>> Assemble::colour() const {
-  std::array<float, 3> colour{};
-  std::size_t from = 0;
-  for (int c = 0; c < 3; ++c) {
-    const std::size_t comma = c < 2 ? background.find(',', from) : background.size();
-    if (comma == std::string::npos) return std::nullopt;
+  std::vector<double> numbers;
+  for (std::size_t from = 0; from <= background.size();) {
+    const std::size_t comma = std::min(background.find(',', from), background.size());
     const std::optional<double> value = parse_number(background.substr(from, comma - from));
     if (!value) return std::nullopt;
-    colour[static_cast<std::size_t>(c)] = static_cast<float>(*value);
+    numbers.push_back(*value);
     from = comma + 1;
   }
+  std::array<float, 3> colour{};
+  bool is_colour = numbers.size() == colour.size();
+  for (std::size_t c = 0; c < colour.size() && is_colour; ++c) {
+    colour[c] = static_cast<float>(numbers[c]);
+    is_colour = std::isfinite(colour[c]);
+  }
+  if (!is_colour)
+    throw UsageError("--background: '" + printable(background) + "' is not R,G,B, three numbers");
   return colour;
 }
 

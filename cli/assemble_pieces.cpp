@@ -163,11 +163,12 @@ PieceRequest parse_piece(std::string_view option, const std::string& text) {
 }
 
 std::vector<PieceRequest> read_piece_list(const std::string& path) {
+  if (std::filesystem::is_directory(path)) throw Error(ErrorKind::not_found, path, "is a directory");
   std::ifstream in(path);
   if (!in) throw Error(ErrorKind::not_found, path, "cannot be read");
   const auto damaged = [&](const std::string& cause) { return Error(ErrorKind::damaged, path, cause); };
   const json all = json::parse(in, nullptr, false);
-  if (!all.is_object()) throw damaged("is not a JSON object with a list of \"panels\"");
+  if (!all.is_object()) throw damaged("is not a JSON object with lists of \"panels\" and \"balls\"");
   std::vector<PieceRequest> requests;
   for (const auto& [kind, list] : all.items()) {
     if (kind != "panels")
@@ -244,8 +245,9 @@ ReadPiece read_piece(const PieceRequest& request) {
   if (is_ball) {
     BallPiece ball = make_ball_piece(request.file, std::move(map), ball_options(request));
     std::string note = fmt::format(
-        "{}: the camera {:.4g} ball radii away, hidden behind the ball a cone of {:.2f}°, "
-        "with the rim that is left out {:.2f}°",
+        "{}: the camera at {:.4g} ball radii; half angle of the cone behind the ball that is hidden {:.2f}°, "
+        "and left "
+        "out {:.2f}°",
         printable(request.file), ball.distance, ball.blind / kDegree, ball.left_out / kDegree);
     return {std::move(ball.piece), std::move(note)};
   }

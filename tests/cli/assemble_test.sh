@@ -60,6 +60,10 @@ refuses 2 "'fov' is given twice" assemble x.exr --panel list/face_pz.exr,fov=60,
 refuses 2 "unknown parameterization 'fishy'" assemble x.exr --panel list/face_pz.exr,as=fishy
 refuses 1 'nope.png: No such file' assemble x.exr --panel nope.png,fov=60
 refuses 2 '--alpha: ' assemble x.exr --panel list/face_pz.exr,fov=60 --alpha --background 0,0,0
+for colour in 1,2 1,2,3,4 1,1e60,1; do
+  refuses 2 'is not R,G,B' assemble x.exr --panel list/face_pz.exr,fov=60 --background "$colour"
+done
+refuses 1 'list: is a directory' assemble x.exr --list list
 printf "[" >bad.json
 refuses 1 "bad.json: is not a JSON object" assemble x.exr --list bad.json
 printf '{"panels": [{"fov": 60}]}' >bad.json
@@ -77,7 +81,7 @@ done
 balls=(--ball ball0.exr,distance=12,yaw=180,camera=8 --ball ball1.exr,distance=12,yaw=300,camera=8
   --ball ball2.exr,distance=12,yaw=60,camera=8)
 matches '^together +(99\.9|100\.0). %' assemble balls.exr "${balls[@]}" --match --size 512
-grep -qE 'hidden behind the ball a cone of 4\.78°' "$work/out" || fail "no blind cone: $(cat "$work/out")"
+grep -qE 'behind the ball that is hidden 4\.78°' "$work/out" || fail "no blind cone: $(cat "$work/out")"
 near 'gains' "$(sed -nE 's/.*times ([0-9.]+)/\1/p' "$work/out" | tr '\n' ' ')" "0.9330 0.8706" 0.004
 for direction in 1,0.2,0 -1,0.3,0.2 0,0.5,1 0,0.3,-1 0.1,-1,0; do
   near "along $direction" "$(sample_along balls.exr "$direction")" "$(sample_along sky.exr "$direction")" 0.03
