@@ -104,13 +104,15 @@ class Assembler {
     const bool fades = behind_ || from > 0, weighs = options_.by_fineness && all.size() > 1;
     for (const Shown& shown : all) {
       opacity[shown.piece].resize(count);
+      const std::vector<double> finenesses =
+          weighs ? texels_[shown.piece].fineness(tile) : std::vector<double>(count, 1.0);
       for (std::size_t i = 0; i < count; ++i) {
         const float* colour = &shown.colours[4 * i];
         const double alpha = static_cast<double>(colour[3]);
         if (!(alpha > 0)) continue;
         const double feather = fades ? shown.feathers[i] : std::max(shown.feathers[i], kLeastFeather);
         const double opaque = fades ? feather * alpha : alpha;
-        const double fineness = weighs ? texels_[shown.piece].fineness(tile.directions[i]) : 1;
+        const double fineness = finenesses[i];
         opacity[shown.piece][i] = opaque;
         blends[i].opacity += opaque;
         blends[i].weight += fineness * feather * alpha;

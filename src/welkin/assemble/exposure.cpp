@@ -39,12 +39,13 @@ Seen seen_of(const Piece& piece, const MapFrame& frame) {
     std::vector<float> colours(4 * static_cast<std::size_t>(tile.count()));
     std::vector<double> feathers(static_cast<std::size_t>(tile.count()));
     if (!texels.make(tile, colours.data(), feathers.data())) return;
+    const std::vector<double> fineness = texels.fineness(tile);
     for (int i = 0; i < tile.count(); ++i) {
       const auto from = static_cast<std::size_t>(i);
       const auto to = static_cast<std::size_t>((tile.y + i / tile.width) * kSide + tile.x + i % tile.width);
       std::copy_n(&colours[4 * from], 4, &seen.colours[4 * to]);
       if (colours[4 * from + 3] < kOpaque || !(feathers[from] > 0)) continue;
-      seen.weights[to] = feathers[from] * texels.fineness(tile.directions[from]);
+      seen.weights[to] = feathers[from] * fineness[from];
     }
   });
   double sum = 0, count = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "welkin/math/angles.h"
 
@@ -142,6 +143,40 @@ double PieceTexels::fineness(const Vec3d& direction) const {
   const double a = dot(right, right), b = dot(down, down), c = dot(right, down);
   const double longest = 0.5 * (a + b + std::sqrt((a - b) * (a - b) + 4 * c * c));
   return 1 / std::max(longest, 1e-20);
+}
+
+std::vector<double> PieceTexels::fineness(const Tile& tile) const {
+  constexpr int kEvery = 8;
+  const int columns = (tile.width - 2 + kEvery) / kEvery + 1, rows = (tile.height - 2 + kEvery) / kEvery + 1;
+  std::vector<double> nodes;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      const int x = std::min(i * kEvery, tile.width - 1), y = std::min(j * kEvery, tile.height - 1);
+      nodes.push_back(fineness(tile.directions[static_cast<std::size_t>(y * tile.width + x)]));
+    }
+  }
+  // The node before a texel, and how far the texel is from it to the next, 0 … 1.
+  const auto place = [](int texel, int count, int size) {
+    const int node = std::clamp(texel / kEvery, 0, std::max(count - 2, 0));
+    const int span = std::min((node + 1) * kEvery, size - 1) - node * kEvery;
+    return std::pair{node, span > 0 ? static_cast<double>(texel - node * kEvery) / span : 0.0};
+  };
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(tile.count()));
+  for (int y = 0; y < tile.height; ++y) {
+    const auto [row, down] = place(y, rows, tile.height);
+    for (int x = 0; x < tile.width; ++x) {
+      const auto [column, right] = place(x, columns, tile.width);
+      const auto node = [&](int i, int j) {
+        return nodes[static_cast<std::size_t>(std::min(j, rows - 1) * columns + std::min(i, columns - 1))];
+      };
+      const double above = node(column, row) + right * (node(column + 1, row) - node(column, row));
+      const double below =
+          node(column, row + 1) + right * (node(column + 1, row + 1) - node(column, row + 1));
+      values.push_back(above + down * (below - above));
+    }
+  }
+  return values;
 }
 
 }  // namespace welkin

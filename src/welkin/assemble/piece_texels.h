@@ -49,6 +49,8 @@ class PieceTexels {
   /// across where they are longest. Near the rim of a mirror ball that is few, though they are many per
   /// steradian.
   double fineness(const Vec3d& direction) const;
+  /// The same of a tile's texels, as it changes slowly: every eighth, and linear between them.
+  std::vector<double> fineness(const Tile& tile) const;
 
  private:
   /// Of a tile's texel: its feather, or −1 where nothing is seen of it.
