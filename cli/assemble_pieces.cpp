@@ -171,8 +171,8 @@ std::vector<PieceRequest> read_piece_list(const std::string& path) {
   if (!all.is_object()) throw damaged("is not a JSON object with lists of \"panels\" and \"balls\"");
   std::vector<PieceRequest> requests;
   for (const auto& [kind, list] : all.items()) {
-    if (kind != "panels")
-      throw damaged(unknown_name("list", printable(kind), std::vector<std::string>{"panels"}));
+    if (kind != "panels" && kind != "balls")
+      throw damaged(unknown_name("list", printable(kind), std::vector<std::string>{"panels", "balls"}));
     if (!list.is_array()) throw damaged("\"" + kind + "\" is not a list");
     for (const json& each : list) {
       if (!each.is_object() || !each.contains("file") || !each["file"].is_string())

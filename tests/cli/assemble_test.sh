@@ -90,6 +90,9 @@ done
 must assemble fov.exr --ball ball0.exr,fov=9.5604,yaw=180 --size 256
 must assemble distance.exr --ball ball0.exr,distance=12,yaw=180,x=150,y=150,radius=150 --size 256
 same distance.exr fov.exr 1e-3
+printf '{"balls": [{"file": "ball0.exr", "distance": 12, "yaw": 180}]}' >one_ball.json
+must assemble listed_ball.exr --list one_ball.json --size 256
+same distance.exr listed_ball.exr 1e-6
 refuses 2 'distance: follows from fov' assemble x.exr --ball ball0.exr,fov=9,distance=12
 refuses 2 'give all three' assemble x.exr --ball ball0.exr,x=150
 refuses 1 'is not inside the picture' assemble x.exr --ball ball0.exr,x=10,y=10,radius=100

@@ -30,7 +30,7 @@ inline constexpr int kBackdrop = std::numeric_limits<int>::min();
 
 /// A picture of part of the world. Its directions, and those of `edges`, are its map's; the map's orientation
 /// says where in the world they lie.
-struct Piece {
+struct WELKIN_API Piece {
   std::string name;        ///< for messages: a file, for instance
   Map map;                 ///< R G B A, colours multiplied by alpha, borders filled
   std::vector<Cap> edges;  ///< the piece is what these have in common
