@@ -141,6 +141,11 @@ std::vector<double> own_ewa(const Map& map, const EllipticalCone& cone) {
       kPoints);
 }
 
+/// gaussian: the cone itself.
+std::vector<double> own_cone(const Map& map, const EllipticalCone& cone) {
+  return look_up_reference(map, cone, kPoints);
+}
+
 // --------------------------------------------------------------------------------------------------------
 // filters
 
@@ -176,7 +181,10 @@ std::vector<Method> all_methods() {
           method("sat, 3 boxes", {.filter = ConeFilter::sat, .boxes = 3}, own_boxes(3)),
           method("probes, 16", {.filter = ConeFilter::probes, .probes = 16}, own_probes),
           method("hybrid", {.filter = ConeFilter::hybrid}, own_ewa),
-          method("ewa", {.filter = ConeFilter::ewa}, own_ewa)};
+          method("ewa", {.filter = ConeFilter::ewa}, own_ewa),
+          method("gaussian, 1 %", {.filter = ConeFilter::gaussian}, own_cone),
+          method("gaussian, 0.1 %", {.filter = ConeFilter::gaussian, .accuracy = GaussianAccuracy::permille},
+                 own_cone)};
 }
 
 // ----------------------------------------------------------------------------------------------------------

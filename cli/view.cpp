@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 
+#include "bake_set.h"
 #include "command.h"
 #include "progress.h"
 #include "view_frames.h"
 #include "welkin/camera/camera_path.h"
+#include "welkin/io/process.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map_file/write_resampled.h"
 #include "welkin/sequence/frame_names.h"
@@ -19,15 +21,19 @@ namespace {
 
 struct View {
   std::string in, out, format, size = "1920x1080", camera = "perspective", axis = "horizontal", look, shift;
-  std::string filter = "auto", fill, pair, frames, path;
+  std::string filter = "auto", fill, pair, frames, path, shutter, over;
+  std::optional<int> samples;
+  bool resume = false;
+  StreamFlags stream;
   std::optional<double> fov;
   double exposure = 0, scale = 1;
   bool allow_ringing = false;
   ReadFlags read;
   WriteFlags write;
 
-  void run() const;
+  void run(const CLI::App& command) const;
   Camera parse_camera() const;
+  Shutter parse_shutter() const;
   ResampleOptions parse_options() const;
   float factor() const { return static_cast<float>(scale * std::exp2(exposure)); }
 };
@@ -68,16 +74,49 @@ ResampleOptions View::parse_options() const {
   return options;
 }
 
-void View::run() const {
+Shutter View::parse_shutter() const {
+  const std::vector<double> times = parse_numbers("--shutter", shutter);
+  if (times.size() != 2 || !(times[0] < times[1]))
+    throw UsageError("--shutter: '" + shutter + "' is not OPEN,CLOSE in frames, as 0,0.5");
+  return {times[0], times[1]};
+}
+
+void View::run(const CLI::App& command) const {
   read.parse();
-  check_extension(out);
+  stream.check_unused(command);
+  if (!(stream.asked() && out == "-")) check_extension(out);
   ViewRequest request{.in = in, .out = out, .camera = parse_camera(), .options = parse_options()};
   request.factor = factor();
   request.read = &read;
   request.write = &write;
+  request.stream = &stream;
+  request.over = over;
+  request.resume = resume;
+  if (stream.asked()) {
+    stream.parse_kind();
+    stream.parse_rate();
+    stream.colour();
+  }
+  if (!shutter.empty()) request.shutter = parse_shutter();
+  if (samples && !request.shutter) throw UsageError("--samples: is for --shutter");
+  request.samples = samples;
+  if (request.shutter && path.empty())
+    throw UsageError("--shutter: the camera stands still; say how it moves with --path");
+  if (request.shutter && !pair.empty())
+    throw UsageError("--shutter: makes one eye's picture; take it with --eye");
+  if (request.shutter && filter != "auto")
+    throw UsageError("--shutter: averages what a pixel sweeps; leave --filter out");
   if (!pair.empty()) request.pair = parse_option("--pair", [&] { return pair_from_name(pair); });
   if (request.pair && !read.eye.empty()) throw UsageError("--pair: takes both eyes, and --eye one");
   if (!path.empty()) request.path = read_camera_path(path);
+  if (resume) {
+    request.request = command_line(command);
+    if (request.path) {
+      for (const CameraKey& key : request.path->keys())
+        request.request += fmt::format(" {} {} {} {} {}", key.frame, key.look.yaw, key.look.pitch,
+                                       key.look.roll, key.fov.value_or(0));
+    }
+  }
   if (!frames.empty()) request.frames = parse_option("--frames", [&] { return frame_range_from(frames); });
   // A camera that there can't be is told before any file is opened.
   parse_option("--camera", [&] { return frame_of(request.camera); });
@@ -130,10 +169,32 @@ void add_view(CLI::App& app) {
   view->read.add_level(*command, "Level of the input to take. Default: 0");
   view->write.add(*command);
   add_format(*command, view->format);
-  command->callback([view] {
-    view->out = output_path(view->out, view->format);
-    view->in = input_path(view->in);
-    view->run();
+  command->add_option(
+      "--shutter", view->shutter,
+      "OPEN,CLOSE in frames, as 0,0.5: blur the motion of --path between these times from each frame on");
+  command
+      ->add_option(
+          "--samples", view->samples,
+          "With --shutter: positions of the camera that are averaged. Default: as many as pixels are swept")
+      ->check(CLI::Range(1, 1 << 16));
+  command->add_option(
+      "--over", view->over,
+      "Picture with alpha to lay over each frame, near objects over the far world; may be numbered: "
+      "near_%04d.exr");
+  command->add_flag(
+      "--resume", view->resume,
+      "Leave frames alone whose files are complete, were made by the same request, and are newer than "
+      "what they are made from");
+  view->stream.add(*command);
+  command->callback([view, command] {
+    const bool streamed = view->stream.asked();
+    if (!(streamed && view->out == "-")) view->out = output_path(view->out, view->format);
+    if (streamed && view->out == "-" && !view->format.empty())
+      throw UsageError("--format: --stream names what is written to standard output");
+    if (streamed && view->out == "-" && io::standard_output_is_terminal())
+      throw UsageError("-: standard output is a terminal: redirect it to a file or another program");
+    if (!(streamed && view->in == "-")) view->in = input_path(view->in);
+    view->run(*command);
   });
 }
 

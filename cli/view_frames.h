@@ -3,9 +3,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "command.h"
+#include "view_stream.h"
 #include "welkin/camera/camera_path.h"
+#include "welkin/camera/motion_blur.h"
 #include "welkin/camera/view.h"
 #include "welkin/sequence/frame_names.h"
 
@@ -23,28 +27,52 @@ struct ViewRequest {
   std::optional<Pair> pair = {};
   std::optional<FrameRange> frames = {};
   std::optional<CameraPath> path = {};
+  std::optional<Shutter> shutter = {};  ///< from a frame's number on
+  std::optional<int> samples = {};      ///< MotionBlurOptions::samples
+  std::string over = {};                ///< near pictures, which may be numbered
+  bool resume = false;
+  std::string request = {};  ///< all that the pictures depend on, in any words
   const ReadFlags* read = nullptr;
   const WriteFlags* write = nullptr;
+  const StreamFlags* stream = nullptr;
 
   /// One picture, or one for each frame.
   void run();
 
  private:
-  /// What is seen at a frame, from key frames where there are any.
-  Camera camera_at(int frame) const;
-  void run_frames();
-  /// What was asked for, else those that there are inputs for, else those of the key frames.
-  std::vector<int> frames_to_make() const;
   /// The world of one eye or of both.
   struct Worlds {
     Map left;
     std::optional<Map> right;
-    MapFileInfo info;
   };
-  Worlds read_worlds(const std::string& file) const;
+  /// What is seen, as a map, or for two eyes as a picture.
+  struct Picture {
+    std::optional<Map> map;
+    Image both;
+    std::vector<std::string> channels;
+
+    ImageView<float> view() { return map ? map->level.chart(0) : both.view(); }
+  };
+  class Sequence;
+
+  /// What is seen at a time in frames, from key frames where there are any.
+  Camera camera_at(double frame) const;
+  Worlds read_worlds(const std::string& file, bool warn) const;
   /// The worlds with the channels that the output takes, and brightened.
   Worlds fit(Worlds worlds, const std::string& file, bool told) const;
-  void make(const Worlds& worlds, const Camera& at, const std::string& file, io::WriteReport& losses) const;
+  Picture picture_of(const Worlds& worlds, int frame) const;
+  /// Lays the near picture of a frame over it.
+  void lay_over(Picture& picture, int frame) const;
+  std::string near_file(int frame) const;
+  /// To a file, by bands where that is enough.
+  io::WriteReport make(const Worlds& worlds, int frame, const std::string& file,
+                       const std::string& note) const;
+  /// Throws as writing a frame's file would.
+  void check_file(int frame, const std::string& file) const;
+  /// What was asked for, else those that there are inputs for, else those of the key frames.
+  std::vector<int> frames_to_make() const;
+  bool reads_stream() const { return stream->asked() && in == "-"; }
+  bool writes_stream() const { return stream->asked() && out == "-"; }
 };
 
 }  // namespace welkin::cli

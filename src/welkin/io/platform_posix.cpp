@@ -360,6 +360,36 @@ fs::path take_standard_output(std::string_view extension) {
   return taken_output.name;
 }
 
+std::size_t read_standard_input(std::span<std::byte> bytes) {
+  std::size_t had = 0;
+  while (had < bytes.size()) {
+    const ssize_t count = ::read(STDIN_FILENO, bytes.data() + had, bytes.size() - had);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail();
+    if (count == 0) break;
+    had += static_cast<std::size_t>(count);
+  }
+  return had;
+}
+
+void write_standard_output(std::span<const std::byte> bytes) {
+  static const int descriptor = [] {
+    ::signal(SIGPIPE, SIG_IGN);  // it is an error of writing instead
+    std::fflush(stdout);
+    const int taken = duplicate(STDOUT_FILENO);
+    if (taken < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) fail();
+    return taken;
+  }();
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && errno == EPIPE)
+      throw Error(ErrorKind::system, "the program that reads the stream has closed it");
+    if (count < 0) fail();
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+}
+
 void hold_standard_streams() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     // The lowest free number is taken: the closed one's, as those below are open by now.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 #include "welkin/base/export.h"
@@ -25,6 +27,15 @@ WELKIN_API std::filesystem::path take_standard_input();
 /// goes to standard error from now on. At most once, before other threads. Throws Error (system) where the
 /// system refuses.
 WELKIN_API std::filesystem::path take_standard_output(std::string_view extension);
+
+/// The next bytes of standard input, as they come; fewer than asked for only at its end. From one thread at a
+/// time. Throws Error (system).
+WELKIN_API std::size_t read_standard_input(std::span<std::byte> bytes);
+
+/// Passes bytes on to standard output at once, as a stream. At the first call, all else that is printed there
+/// goes to standard error from then on. From one thread at a time. Throws Error (system): a program behind a
+/// pipe that has closed it is one.
+WELKIN_API void write_standard_output(std::span<const std::byte> bytes);
 
 /// Reserves the descriptors of standard streams that the caller closed, so that no file opened later is
 /// mistaken for one. Writing to them still fails. Call once, at the start of a program.

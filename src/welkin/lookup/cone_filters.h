@@ -45,6 +45,7 @@ ConeLookUpPtr make_box(const SharedMap& map, const ConeSamplerOptions& options);
 ConeLookUpPtr make_summed_area(const SharedMap& map, const ConeSamplerOptions& options);
 ConeLookUpPtr make_probes(const SharedMap& map, const ConeSamplerOptions& options);
 ConeLookUpPtr make_ewa(const SharedMap& map, const ConeSamplerOptions& options);
+ConeLookUpPtr make_gaussian(const SharedMap& map, const ConeSamplerOptions& options);
 ConeLookUpPtr make_hybrid(const SharedMap& map, const ConeSamplerOptions& options);
 
 /// The mean of a map over what it shows, a value for each channel.

@@ -20,7 +20,7 @@ struct FilterEntry {
   ConeLookUpPtr (*make)(const SharedMap& map, const ConeSamplerOptions& options);
 };
 
-constexpr std::array<FilterEntry, 10> kFilters{{
+constexpr std::array<FilterEntry, 11> kFilters{{
     {"nearest", ConeFilter::nearest, make_point_look_up},
     {"bilinear", ConeFilter::bilinear, make_point_look_up},
     {"trilinear", ConeFilter::trilinear, make_trilinear},
@@ -31,6 +31,7 @@ constexpr std::array<FilterEntry, 10> kFilters{{
     {"probes", ConeFilter::probes, make_probes},
     {"ewa", ConeFilter::ewa, make_ewa},
     {"hybrid", ConeFilter::hybrid, make_hybrid},
+    {"gaussian", ConeFilter::gaussian, make_gaussian},
 }};
 
 const FilterEntry& entry_of(ConeFilter filter) {
@@ -103,6 +104,7 @@ std::string_view name_of(ConeFilter filter) {
 
 bool is_usable(ConeFilter filter, const sphere::AnyParameterization& p) {
   if (filter == ConeFilter::mirrored) return is_square_octahedron(p);
+  if (filter == ConeFilter::gaussian) return p.whole_world();
   if (filter == ConeFilter::sat) {
     return is_square_octahedron(p) || p.traits().cube_faces || p.traits().latlong_grid;
   }

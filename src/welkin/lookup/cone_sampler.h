@@ -9,6 +9,7 @@
 
 #include "welkin/base/export.h"
 #include "welkin/lookup/cone.h"
+#include "welkin/lookup/gaussian_stack.h"
 #include "welkin/map/map.h"
 
 /// @file
@@ -31,9 +32,12 @@ enum class ConeFilter {
   probes,        ///< trilinear probes along the wide axis (McCormack et al. 1999): footprint assembly
   ewa,           ///< the elliptical Gaussian over all of its texels (Heckbert 1989)
   hybrid,        ///< the same inside two levels, blended (Greene & Heckbert 1986): bounded cost
+  gaussian,  ///< sums of look-ups in exactly blurred levels (gaussian_stack.h), with a chosen error. For maps
+             ///< of the whole sphere alone
 };
 
-/// `nearest`, `bilinear`, `trilinear`, `differential`, `mirrored`, `box`, `sat`, `probes`, `ewa`, `hybrid`.
+/// `nearest`, `bilinear`, `trilinear`, `differential`, `mirrored`, `box`, `sat`, `probes`, `ewa`, `hybrid`,
+/// `gaussian`.
 /// Throws Error (bad_request) for another name.
 WELKIN_API ConeFilter cone_filter_from_name(std::string_view name);
 /// The name that cone_filter_from_name takes.
@@ -50,6 +54,7 @@ struct ConeSamplerOptions {
   double level = 0;  ///< nearest, bilinear: of the pyramid, 0 … its last; between two it is linear
   int probes = 16;   ///< probes: at most so many, 1 … 64; longer cones are blurred across as well
   int boxes = 3;     ///< sat: concentric boxes whose sum is near a Gaussian, 1 … 4
+  GaussianAccuracy accuracy = GaussianAccuracy::percent;  ///< gaussian: of its levels
 };
 
 /// Looks radiance up over cones: a map, what a filter needs besides, and the filter.

@@ -113,6 +113,12 @@ std::string request_digest(const FrameNames& in, const BakeFramesOptions& option
   return digest.text();
 }
 
+std::string digest_of(std::string_view request) {
+  Digest digest;
+  digest.add(version()).add(request);
+  return digest.text();
+}
+
 std::string made_note(int frame, const std::string& digest) {
   return std::to_string(frame) + " (" + digest + ")";
 }

@@ -98,11 +98,15 @@ io::WriteReport FrameWriter::encode(ImageView<const float> frame, std::vector<st
     return encode(grey_of(frame).view(), stored);
   }
   if (info_.kind != StreamKind::y4m) return encode_pixmap(info_, colour_, frame, stored);
-  static constexpr std::string_view kHeader = "FRAME\n";
-  stored.resize(kHeader.size() + yuv_bytes(info_));
-  std::copy_n(std::as_bytes(std::span(kHeader)).begin(), kHeader.size(), stored.begin());
-  encode_yuv(info_, colour_, frame, std::span(stored).subspan(kHeader.size()));
+  const std::string header = frame_header();
+  stored.resize(header.size() + yuv_bytes(info_));
+  std::copy_n(std::as_bytes(std::span(header)).begin(), header.size(), stored.begin());
+  encode_yuv(info_, colour_, frame, std::span(stored).subspan(header.size()));
   return clipped_of(frame);
+}
+
+std::string FrameWriter::frame_header() const {
+  return info_.kind == StreamKind::y4m ? "FRAME\n" : pixmap_header(info_);
 }
 
 void FrameWriter::put(std::span<const std::byte> stored) {

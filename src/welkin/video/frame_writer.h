@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "welkin/base/export.h"
@@ -34,6 +35,9 @@ class WELKIN_API FrameWriter {
   /// written. Integers hold 0 … 1: what is clipped, and what isn't a number and becomes 0, is counted. Throws
   /// Error (mismatch): another size.
   io::WriteReport encode(ImageView<const float> frame, std::vector<std::byte>& stored) const;
+
+  /// What stands before a frame's pixels, for who has them stored already. Of PPM and y4m.
+  std::string frame_header() const;
 
   /// Writes an encoded frame, after the stream's header where it is the first.
   void put(std::span<const std::byte> stored);

@@ -75,6 +75,7 @@ PixmapHeader read_pixmap_header(char kind, const NextByte& next) {
   header.info.height = whole_number(next, "height", kLongestSide);
   if (!floats) {
     header.largest = whole_number(next, "largest value", kLargestValue);
+    header.info.largest = header.largest;
     header.info.bits = header.largest > 255 ? 16 : 8;
     return header;
   }
@@ -119,15 +120,20 @@ void decode_pixmap(const PixmapHeader& header, const StreamColour& colour, std::
   });
 }
 
+std::string pixmap_header(const StreamInfo& info) {
+  const bool grey = info.channels == 1;
+  const std::string size = "\n" + std::to_string(info.width) + " " + std::to_string(info.height) + "\n";
+  if (info.kind == StreamKind::pfm)
+    return (grey ? "Pf" : "PF") + size + (std::endian::native == std::endian::little ? "-1.0\n" : "1.0\n");
+  return (grey ? "P5" : "P6") + size + (info.bits == 8 ? "255\n" : "65535\n");
+}
+
 io::WriteReport encode_pixmap(const StreamInfo& info, const StreamColour& colour,
                               ImageView<const float> frame, std::vector<std::byte>& stored) {
-  const std::string size = std::to_string(info.width) + " " + std::to_string(info.height) + "\n";
   stored.clear();
-  const bool grey = info.channels == 1;
+  append(stored, pixmap_header(info));
   const int values = info.width * info.channels;
   if (info.kind == StreamKind::pfm) {
-    append(stored, (grey ? "Pf\n" : "PF\n") + size +
-                       (std::endian::native == std::endian::little ? "-1.0\n" : "1.0\n"));
     const std::size_t header = stored.size(), stride = static_cast<std::size_t>(values) * sizeof(float);
     stored.resize(header + stride * static_cast<std::size_t>(info.height));
     for (int y = 0; y < info.height; ++y)
@@ -135,7 +141,6 @@ io::WriteReport encode_pixmap(const StreamInfo& info, const StreamColour& colour
                   frame.row(y), stride);
     return {};
   }
-  append(stored, (grey ? "P5\n" : "P6\n") + size + (info.bits == 8 ? "255\n" : "65535\n"));
   const std::size_t header = stored.size(),
                     stride = static_cast<std::size_t>(values) * static_cast<std::size_t>(info.bits / 8);
   stored.resize(header + stride * static_cast<std::size_t>(info.height));

@@ -32,6 +32,9 @@ std::size_t pixmap_bytes(const PixmapHeader& header);
 void decode_pixmap(const PixmapHeader& header, const StreamColour& colour, std::span<const std::byte> stored,
                    ImageView<float> out);
 
+/// What stands before a frame's pixels.
+std::string pixmap_header(const StreamInfo& info);
+
 /// A frame with its header.
 io::WriteReport encode_pixmap(const StreamInfo& info, const StreamColour& colour,
                               ImageView<const float> frame, std::vector<std::byte>& stored);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +54,7 @@ struct StreamInfo {
   int height = 0;                     ///< of every frame
   int channels = 3;                   ///< 1: grey
   int bits = 8;                       ///< of a stored value: 8 … 16, of PFM 32
+  int largest = 255;                  ///< of PPM, the value of white
   int rate_numerator = 0;             ///< frames a second; 0: not said
   int rate_denominator = 1;           ///< of the rate
   int aspect_numerator = 0;           ///< of a pixel, width to height; 0: not said
@@ -60,6 +62,17 @@ struct StreamInfo {
   Chroma chroma = Chroma::c420jpeg;   ///< of y4m
   bool full_range = false;            ///< of y4m: 0 … 255 is black to white, not 16 … 235
 };
+
+/// Values of a frame that lie together, as they are stored.
+struct StoredPlane {
+  std::size_t offset = 0;  ///< of the first byte, among a frame's
+  int width = 0;           ///< pixels in a row
+  int height = 0;          ///< rows
+  int channels = 1;        ///< values of a pixel
+};
+
+/// Of a frame: Y′, Cb and Cr of a y4m, else all in one. PFM has its rows upside down.
+WELKIN_API std::vector<StoredPlane> stored_planes(const StreamInfo& info);
 
 /// How a stream's numbers are colours.
 struct StreamColour {

@@ -271,6 +271,16 @@ void encode_planes(const StreamInfo& info, const StreamColour& colour, ImageView
 
 }  // namespace
 
+std::vector<StoredPlane> stored_planes(const StreamInfo& info) {
+  if (info.kind != StreamKind::y4m) return {{0, info.width, info.height, info.channels}};
+  const PlaneSizes sizes = sizes_of(info);
+  const std::size_t bytes = info.bits > 8 ? 2 : 1;
+  std::vector<StoredPlane> planes{{0, info.width, info.height, 1}};
+  for (std::size_t i = 0; i < 2 && sizes.chroma > 0; ++i)
+    planes.push_back({(sizes.luma + i * sizes.chroma) * bytes, sizes.width, sizes.height, 1});
+  return planes;
+}
+
 std::size_t yuv_bytes(const StreamInfo& info) {
   const PlaneSizes sizes = sizes_of(info);
   return (sizes.luma + 2 * sizes.chroma) * (info.bits > 8 ? 2 : 1);
