@@ -6,13 +6,12 @@
 #include <cmath>
 #include <random>
 
+#include "cone_kernels.h"
 #include "harness.h"
 #include "welkin/lookup/cone_reference.h"
 #include "welkin/lookup/cone_sampler.h"
 #include "welkin/lookup/cone_shapes.h"
-#include "welkin/lookup/gaussian_boxes.h"
-#include "welkin/lookup/probe_row.h"
-#include "welkin/lookup/texel_shape.h"
+#include "welkin/lookup/tangent_plane.h"
 #include "welkin/map/borders.h"
 #include "welkin/math/angles.h"
 
@@ -21,24 +20,17 @@ namespace {
 using namespace welkin;
 using namespace welkin::bench;
 
-using Weight = std::function<double(const Vec3d&)>;
 using Cones = std::vector<EllipticalCone>;
 
 /// Points along a texel's side of references.
 constexpr int kPoints = 2;
 
-Vec3d wide(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-Vec3<float> narrow(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 double wide(float x) {
   return static_cast<double>(x);
 }
 
-TangentPlane plane_of(const EllipticalCone& cone) {
-  return TangentPlane(normalize(wide(cone.direction)), wide(cone.axis));
+Vec3<float> narrow(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 // ---------------------------------------------------------------------------------------------- what filters
@@ -187,9 +179,6 @@ std::vector<Method> all_methods() {
                  own_cone)};
 }
 
-// ----------------------------------------------------------------------------------------------------------
-// cases
-
 using Scene = std::function<double(const Vec3d&)>;
 
 /// Means of 4×4 points a texel.
@@ -307,9 +296,6 @@ std::vector<Case> all_cases() {
   }));
   return cases;
 }
-
-// ---------------------------------------------------------------------------------------------------------
-// errors
 
 double mean_of(const Map& map) {
   return weighted_mean(
