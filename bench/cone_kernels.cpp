@@ -116,4 +116,8 @@ std::vector<double> own_ewa(const Map& map, const EllipticalCone& cone) {
       kPoints);
 }
 
+std::vector<double> own_cone(const Map& map, const EllipticalCone& cone) {
+  return look_up_reference(map, cone, kPoints);
+}
+
 }  // namespace welkin::bench

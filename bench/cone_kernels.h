@@ -25,5 +25,7 @@ OwnMean own_boxes(int count);
 std::vector<double> own_probes(const Map& map, const EllipticalCone& cone);
 /// ewa, hybrid: the Gaussian of the logarithm map.
 std::vector<double> own_ewa(const Map& map, const EllipticalCone& cone);
+/// gaussian: the cone itself.
+std::vector<double> own_cone(const Map& map, const EllipticalCone& cone);
 
 }  // namespace welkin::bench
