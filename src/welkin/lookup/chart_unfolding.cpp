@@ -49,11 +49,10 @@ ChartUnfolding::ChartUnfolding(const sphere::AnyParameterization& p, ChartSize s
       for (const Side side : {left, right, top, bottom}) neighbours_.push_back(neighbour(p, chart, side));
     }
   } else {
-    throw Error(
-        ErrorKind::unsupported,
-        "look-up: summed areas are for latlong, cube, eac, octahedral and octahedral-equal-area maps, not "
-        "for " +
-            p.name());
+    throw Error(ErrorKind::unsupported,
+                "look-up: summed areas are for latlong, cube, eac, openexr-cube, octahedral and "
+                "octahedral-equal-area maps, not for " +
+                    p.name());
   }
 }
 

@@ -27,8 +27,8 @@ enum class ConeFilter {
                  ///< the other hemisphere: whichever is smaller (their §4.2). For octahedral and
                  ///< octahedral-equal-area maps alone
   box,           ///< a square of the pixel's area in two levels (Greene 1986): constant cost
-  sat,           ///< rectangles of a summed-area table (Crow 1984). For latlong, cube, eac, octahedral and
-                 ///< octahedral-equal-area maps
+  sat,           ///< rectangles of a summed-area table (Crow 1984). For latlong, cube, eac,
+                 ///< openexr-cube, octahedral and octahedral-equal-area maps
   probes,        ///< trilinear probes along the wide axis (McCormack et al. 1999): footprint assembly
   ewa,           ///< the elliptical Gaussian over all of its texels (Heckbert 1989)
   hybrid,        ///< the same inside two levels, blended (Greene & Heckbert 1986): bounded cost
