@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -126,6 +127,9 @@ void append_intervals(double lowest, double highest, double step, double density
     GaussianInterval interval;
     interval.lowest = static_cast<float>(low);
     interval.node = static_cast<float>(nodes[0]);
+    interval.wider = static_cast<float>(nodes[1]);
+    // At x²/2σ² = 2 + √2 the line between the two crosses the Gaussian.
+    interval.flank = static_cast<float>(std::pow(nodes[1] / nodes[0], 1 + std::numbers::sqrt2));
     interval.per_variance = static_cast<float>(1 / (nodes[1] - nodes[0]));
     interval.size = side_of(low, density);
     interval.reach = 0;
@@ -141,10 +145,6 @@ std::vector<GaussianInterval> intervals_of(double texel, const GaussianQuality& 
   append_intervals(finest * finest, whole * whole, quality.fine_step, quality.fine_density, intervals);
   append_intervals(whole * whole, kPi * kPi / 4, quality.step, quality.density, intervals);
   return intervals;
-}
-
-double wider_node(const GaussianInterval& interval) {
-  return double{interval.node} + 1 / double{interval.per_variance};
 }
 
 /// C scaled values of each map, texel by texel.
@@ -245,7 +245,7 @@ BlurPlan plan_blurs(const GaussianLevels& levels, const GaussianQuality& quality
   BlurPlan plan;
   std::vector<double> widest;
   for (const GaussianInterval& interval : levels.intervals) {
-    const double wider = wider_node(interval), narrower = interval.node;
+    const double wider = double{interval.wider}, narrower = interval.node;
     if (std::sqrt(wider) > quality.handover * levels.texel) break;
     const double brighter = std::min(contrast, 2 / narrower);
     const double reach = std::sqrt(2 * std::log(10 * brighter / quality.blur_tail));
@@ -285,7 +285,7 @@ std::vector<Map> prefiltered(const Map& map, const GaussianLevels& levels, std::
   for (std::size_t k = first; k < levels.intervals.size(); ++k) {
     const GaussianInterval& interval = levels.intervals[k];
     const int side = interval.size + 2 * PaddedCube::kMargin;
-    for (const double variance : {double{interval.node}, wider_node(interval)}) {
+    for (const double variance : {double{interval.node}, double{interval.wider}}) {
       const double kappa = gaussian_concentration(variance);
       lobes.push_back({{side, side}, lobe::AnyLobe::make("vmf,kappa=" + number_text(kappa))});
     }

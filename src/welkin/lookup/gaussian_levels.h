@@ -38,6 +38,8 @@ GaussianQuality quality_of(GaussianAccuracy accuracy);
 struct GaussianInterval {
   float lowest;        ///< σ²
   float node;          ///< σ² of the first of the pair
+  float wider;         ///< that of the second
+  float flank;         ///< from which ratio of the second to the first on they are a Gaussian's flank
   float per_variance;  ///< 1 / (σ² of the second − the first)
   std::int32_t size;   ///< texels of a face's side, without borders
   std::int32_t reach;  ///< GaussianTapRules' index of the reach that its brightest texel asks for

@@ -8,28 +8,10 @@
 #include <vector>
 
 #include "welkin/base/cpu.h"
-#include "welkin/filter/sampler.h"
-#include "welkin/lookup/gaussian_kernels.h"
-#include "welkin/lookup/gaussian_levels.h"
-#include "welkin/lookup/gaussian_taps.h"
+#include "welkin/lookup/gaussian_state.h"
 
 namespace welkin {
 namespace {
-
-/// For each reach.
-using TapRules = std::vector<GaussianTapRules>;
-
-const TapRules& tap_rules(GaussianAccuracy accuracy) {
-  const auto make = [](GaussianAccuracy which) {
-    TapRules rules;
-    for (int i = 0; i < GaussianTapRules::kReaches; ++i)
-      rules.emplace_back(quality_of(which), GaussianTapRules::reach_at(i));
-    return rules;
-  };
-  static const TapRules percent = make(GaussianAccuracy::percent);
-  static const TapRules permille = make(GaussianAccuracy::permille);
-  return accuracy == GaussianAccuracy::permille ? permille : percent;
-}
 
 float squared(const Vec3<float>& v) {
   return v.x * v.x + v.y * v.y + v.z * v.z;
@@ -60,76 +42,17 @@ EllipticalCone straightened(const EllipticalCone& cone) {
 
 }  // namespace
 
-/// What copies share.
-class GaussianStack::State {
- public:
-  State(Sampler source, const Map& map, const GaussianStackOptions& options, const Monitor& monitor)
-      : source_(std::move(source)),
-        levels_(make_gaussian_levels(map, options.accuracy, monitor)),
-        rules_(tap_rules(options.accuracy)),
-        kernels_(gaussian_kernels()) {
-    const float lowest = levels_.intervals[0].lowest;
-    base_ = std::log2(lowest);
-    per_step_ = static_cast<float>(levels_.intervals.size()) / (std::log2(levels_.highest) - base_);
-    bilinear_ = static_cast<float>(levels_.texel * levels_.texel / 6);
-    narrowest_tap_ = static_cast<float>(std::sqrt(std::max(double{bilinear_}, 1e-12)));
-  }
-
-  int channels() const { return levels_.channels; }
-  std::size_t bytes() const { return levels_.halves.size(); }
-  double texel() const { return levels_.texel; }
-
-  void look_up(std::span<const EllipticalCone> cones, std::span<float> radiance) const;
-
- private:
-  struct Pending;
-  struct Batch;
-  static constexpr std::size_t kFewChannels = 4;
-
-  /// What the levels have in a cone of this σ²; below them the source's bilinear interpolation has the rest.
-  float share_of(float variance) const {
-    return std::clamp((variance - bilinear_) / (levels_.intervals[0].lowest - bilinear_), 0.0f, 1.0f);
-  }
-
-  std::size_t width() const { return 2 * static_cast<std::size_t>(levels_.channels); }
-  const std::uint16_t* texels_of(const GaussianInterval& interval) const {
-    return levels_.values() + static_cast<std::size_t>(interval.first) * width();
-  }
-  std::size_t pitch_of(const GaussianInterval& interval) const {
-    return static_cast<std::size_t>(interval.size + 2) * width();
-  }
-  const GaussianInterval& interval_at(float variance) const;
-  const GaussianTapRules& rules_at(const GaussianInterval& interval) const {
-    return rules_[static_cast<std::size_t>(interval.reach)];
-  }
-  /// A look-up's last step: from the sums of the pair to radiance.
-  void finish(const GaussianInterval& interval, float variance, const float* sums, float* out) const;
-  void flush(Batch& batch, float* sums, float* radiance) const;
-  void look_up_alone(const EllipticalCone& cone, Batch& batch, float* sums, float* out) const;
-  void add_source(const GaussianTaps& taps, std::size_t count, double* out) const;
-
-  Sampler source_;
-  GaussianLevels levels_;
-  const TapRules& rules_;
-  const GaussianKernels& kernels_;
-  float base_, per_step_;  ///< log2 of the least σ²; intervals for each doubling
-  float bilinear_;         ///< σ² of the source's bilinear interpolation
-  float narrowest_tap_;    ///< σ of the narrowest thing that taps can see
-};
-
-/// A cone whose taps are in the batch.
-struct GaussianStack::State::Pending {
-  const GaussianInterval* interval;
-  float variance;  ///< σ² at which the levels are looked up
-  float share;     ///< that the levels have; the source has the rest
-  std::size_t cone, from, to;
-};
-
-struct GaussianStack::State::Batch {
-  GaussianTaps taps;
-  std::size_t used = 0, waiting = 0;
-  Pending pending[GaussianTaps::kMost];
-};
+const TapRules& tap_rules(GaussianAccuracy accuracy) {
+  const auto make = [](GaussianAccuracy which) {
+    TapRules rules;
+    for (int i = 0; i < GaussianTapRules::kReaches; ++i)
+      rules.emplace_back(quality_of(which), GaussianTapRules::reach_at(i));
+    return rules;
+  };
+  static const TapRules percent = make(GaussianAccuracy::percent);
+  static const TapRules permille = make(GaussianAccuracy::permille);
+  return accuracy == GaussianAccuracy::permille ? permille : percent;
+}
 
 const GaussianInterval& GaussianStack::State::interval_at(float variance) const {
   const int last = static_cast<int>(levels_.intervals.size()) - 1;
@@ -154,9 +77,14 @@ void GaussianStack::State::finish(const GaussianInterval& interval, float varian
     const ChannelScale& scale = levels_.scales[c];
     const float a = sums[c], b = sums[channels + c];
     float value = a + t * (b - a);
-    // The line goes on past its nodes. Far out in a Gaussian's tail, where the two differ by large factors,
-    // it must not reach 0.
-    if (scale.positive) value = std::max(value, 0.25f * std::max(0.0f, std::min(a, b)));
+    if (scale.positive && a > 0 && b > interval.flank * a) {
+      // A flank of a Gaussian, exp(−x²/2σ²)/σ²: the logarithm of σ² times it is linear in 1/σ².
+      const float u = t * interval.wider / within;
+      value = a * interval.node / within * std::exp2(u * std::log2(b * interval.wider / (a * interval.node)));
+    } else if (scale.positive) {
+      // The line goes on past its nodes, where one of them may be 0.
+      value = std::max(value, 0.0f);
+    }
     value *= scale.scale;
     out[c] = kept < 1 ? scale.mean + kept * (value - scale.mean) : value;
   }
@@ -271,104 +199,6 @@ void GaussianStack::State::look_up(std::span<const EllipticalCone> cones, std::s
     batch.used += count;
   }
   flush(batch, sums, radiance.data());
-}
-
-/// Adds what the source shows at the taps, interpolated between its texels, to `out`.
-void GaussianStack::State::add_source(const GaussianTaps& taps, std::size_t count, double* out) const {
-  const std::size_t channels = static_cast<std::size_t>(levels_.channels);
-  float few[512];
-  std::vector<float> many(channels > std::size(few) ? channels : 0);
-  const std::span<float> values = many.empty() ? std::span<float>(few) : std::span<float>(many);
-  const std::size_t most = values.size() / channels;
-  for (std::size_t from = 0; from < count; from += most) {
-    const std::size_t here = std::min(most, count - from);
-    source_.look_up(DirectionArrays{{taps.x + from, here}, {taps.y + from, here}, {taps.z + from, here}},
-                    values);
-    for (std::size_t i = 0; i < here; ++i) {
-      for (std::size_t c = 0; c < channels; ++c)
-        out[c] += double{taps.weight[from + i]} * values[i * channels + c];
-    }
-  }
-}
-
-/// A cone with so many taps that they go all around or don't fit a batch, or with odd numbers; and narrow
-/// ones of many channels.
-void GaussianStack::State::look_up_alone(const EllipticalCone& cone, Batch& batch, float* sums,
-                                         float* out) const {
-  GaussianTaps& taps = batch.taps;
-  const std::size_t channels = static_cast<std::size_t>(levels_.channels);
-  const float variance = cone.narrow * cone.narrow;
-  const float seen = std::max(variance, levels_.intervals[0].lowest);
-  const GaussianInterval& interval = interval_at(seen);
-  const float share = share_of(variance);
-
-  // Steps along the great circle: all around it, or as far as the taps reach.
-  const double sigma =
-      std::sqrt(std::max(0.0, double{cone.wide} * cone.wide - double{cone.narrow} * cone.narrow));
-  const float tap = std::max(cone.narrow, narrowest_tap_);
-  const GaussianTapRules& rules = rules_at(interval);
-  std::size_t count =
-      sigma > 0 ? rules.count(static_cast<float>(std::hypot(sigma, tap)), tap, static_cast<float>(sigma)) : 1;
-  const bool all_around = sigma * rules.reach() > kPi;
-  const bool tabled = count <= GaussianTapRules::kMost && !all_around;
-  const double step = all_around ? 0 : 2 * rules.reach() * sigma / static_cast<double>(count);
-  if (all_around) {
-    const double widest = tap * 1.5;
-    count = static_cast<std::size_t>(std::ceil(2 * kPi / widest));
-  }
-  const double apart = all_around ? 2 * kPi / static_cast<double>(count) : step;
-  const auto weight_at = [&](double angle) {
-    if (!all_around) return std::exp(-0.5 * angle * angle / (sigma * sigma));
-    // Where σ is over 3 radians, nothing is left of the wrapped Gaussian's waves.
-    if (sigma > 6) return 1.0;
-    double sum = 0;
-    for (int turn = -8; turn <= 8; ++turn) {
-      const double a = (angle + turn * 2 * kPi) / sigma;
-      sum += std::exp(-0.5 * a * a);
-    }
-    return sum;
-  };
-
-  std::vector<double> all(width()), source(channels);
-  double total = 0;
-  float nodes[GaussianTaps::kMost + GaussianTaps::kLanes] = {};
-  for (std::size_t from = 0; from < count; from += GaussianTaps::kMost) {
-    const std::size_t here = std::min(GaussianTaps::kMost, count - from);
-    const GaussianTapRules::Rule rule = tabled ? rules.rule(count) : GaussianTapRules::Rule{};
-    for (std::size_t i = 0; i < here; ++i) {
-      if (count == 1) {
-        nodes[i] = 0;
-        taps.weight[i] = 1;
-      } else if (tabled) {
-        nodes[i] = rule.nodes[i] * static_cast<float>(sigma);
-        taps.weight[i] = rule.weights[i];
-      } else {
-        const double angle = (static_cast<double>(from + i) - 0.5 * static_cast<double>(count - 1)) * apart;
-        nodes[i] = static_cast<float>(angle);
-        taps.weight[i] = static_cast<float>(weight_at(angle));
-      }
-      total += taps.weight[i];
-      taps.size[i] = static_cast<float>(interval.size);
-    }
-    kernels_.spread({{cone.direction.x, cone.direction.y, cone.direction.z},
-                     {cone.axis.x, cone.axis.y, cone.axis.z},
-                     1,
-                     nodes,
-                     here},
-                    taps, 0);
-    if (share > 0) {
-      std::fill_n(sums, width() + 8, 0.0f);
-      kernels_.locate(taps, here);
-      kernels_.gather(taps, 0, here, texels_of(interval), width(), pitch_of(interval), sums);
-      for (std::size_t c = 0; c < width(); ++c) all[c] += sums[c];
-    }
-    if (share < 1) add_source(taps, here, source.data());
-  }
-  for (std::size_t c = 0; c < width(); ++c) sums[c] = static_cast<float>(all[c] / total);
-  std::vector<float> wide(channels);
-  if (share > 0) finish(interval, seen, sums, wide.data());
-  for (std::size_t c = 0; c < channels; ++c)
-    out[c] = share * wide[c] + (1 - share) * static_cast<float>(source[c] / total);
 }
 
 GaussianStack::GaussianStack(std::shared_ptr<const Map> map, const GaussianStackOptions& options,

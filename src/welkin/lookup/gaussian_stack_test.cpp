@@ -1,6 +1,7 @@
 #include "welkin/lookup/gaussian_stack.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <numeric>
@@ -175,6 +176,50 @@ TEST(GaussianStack, TurnsWithTheMap) {
   GaussianStack::borrow(map).look_up(turned, after);
   // The grids of both lie differently in the map: twice the accuracy.
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(after[i], before[i], 0.02 * before[i] + 0.01);
+}
+
+TEST(GaussianStack, KeepsTheLightOfAPannedSun) {
+  // The sum of look-ups all around, whose cones overlap so that a sum stands for the integral to 1e-4. The
+  // sun passes edges, corners and poles of the levels' grids.
+  const Map map = synthetic("sun", "latlong", 128, 64);
+  for (const GaussianAccuracy accuracy : {GaussianAccuracy::percent, GaussianAccuracy::permille}) {
+    const GaussianStack stack = GaussianStack::borrow(map, {accuracy});
+    const double mean = GaussianReference(map).mean()[0];
+    for (int degrees = 0; degrees < 360; degrees += 15) {
+      const Matrix3 turn = rotation_from_yaw_pitch_roll(degrees, 0.5 * degrees, 20);
+      std::vector<EllipticalCone> list;
+      std::vector<double> areas;
+      for (int row = 0; row < 64; ++row) {
+        for (int column = 0; column < 128; ++column) {
+          const double polar = (row + 0.5) * kPi / 64, round = (column + 0.5) * kPi / 64;
+          const Vec3d d{std::sin(polar) * std::sin(round), std::cos(polar),
+                        std::sin(polar) * std::cos(round)};
+          list.push_back({narrow(turn * d), {}, 0.07f, 0.07f});
+          areas.push_back(std::sin(polar));
+        }
+      }
+      std::vector<float> got(3 * list.size());
+      stack.look_up(list, got);
+      double sum = 0, area = 0;
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        sum += areas[i] * got[3 * i];
+        area += areas[i];
+      }
+      ASSERT_NEAR(sum / area, mean, 0.005 * mean) << degrees;
+    }
+  }
+}
+
+TEST(GaussianStack, DoesNotDependOnThreads) {
+  const Map map = synthetic("room", "latlong", 128, 64);
+  const std::vector<EllipticalCone> list = cones(300, 0.02, 1, 3);
+  std::vector<float> one(900), many(900);
+  {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    GaussianStack::borrow(map).look_up(list, one);
+  }
+  GaussianStack::borrow(map).look_up(list, many);
+  EXPECT_EQ(one, many);
 }
 
 TEST(GaussianStack, CountsWhatIsNotShownAsBlack) {
