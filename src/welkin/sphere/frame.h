@@ -156,10 +156,10 @@ struct Equidistant : Frame {
   static constexpr const char* kName = "equidistant";
   explicit Equidistant(double fov_degrees = 180) : Frame(Lens::equidistant, fov_degrees, 360, 360) {}
 };
-/// r = 2 sin(θ/2).
+/// r = 2 sin(θ/2). The corners of a square of 180° would meet in −Z, so the default is less.
 struct Equisolid : Frame {
   static constexpr const char* kName = "equisolid";
-  explicit Equisolid(double fov_degrees = 180) : Frame(Lens::equisolid, fov_degrees, 360, 360) {}
+  explicit Equisolid(double fov_degrees = 150) : Frame(Lens::equisolid, fov_degrees, 360, 360) {}
 };
 /// r = sin θ. At 180° the rim is singular, as that of FisheyeOrthographic.
 struct Orthographic : Frame {
