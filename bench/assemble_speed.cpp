@@ -27,11 +27,11 @@ Map picture_of(const Map& world, const std::string& shape, int size, const Matri
 
 std::vector<Piece> discs(const Map& world) {
   std::vector<Piece> pieces;
-  for (const Aim& aim :
-       {Aim{0, 0, 0}, Aim{90, 0, 0}, Aim{180, 0, 0}, Aim{270, 0, 0}, Aim{0, 90, 0}, Aim{0, -90, 0}})
+  for (const Look& look :
+       {Look{0, 0, 0}, Look{90, 0, 0}, Look{180, 0, 0}, Look{270, 0, 0}, Look{0, 90, 0}, Look{0, -90, 0}})
     pieces.push_back(
-        make_panel("", picture_of(world, "fisheye-equisolid,fov=130", 1024, transpose(rotation_of(aim))),
-                   {.aim = aim, .feather = 10}));
+        make_panel("", picture_of(world, "fisheye-equisolid,fov=130", 1024, transpose(rotation_of(look))),
+                   {.look = look, .feather = 10}));
   return pieces;
 }
 
@@ -39,15 +39,15 @@ std::vector<Piece> balls(const Map& world, int count, double apart) {
   std::vector<Piece> pieces;
   for (int k = 0; k < count; ++k) {
     BallPhotographOptions options;
-    options.aim = {apart * k, 0, 0};
+    options.look = {apart * k, 0, 0};
     options.distance = 8;
     options.camera = 8;
     const Matrix3 turn{{{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}}};
-    pieces.push_back(
-        make_ball_piece(
-            "", picture_of(world, "mirror-ball,distance=8", 1000, turn * transpose(rotation_of(options.aim))),
-            options)
-            .piece);
+    pieces.push_back(make_ball_piece("",
+                                     picture_of(world, "mirror-ball,distance=8", 1000,
+                                                turn * transpose(rotation_of(options.look))),
+                                     options)
+                         .piece);
   }
   return pieces;
 }

@@ -67,8 +67,8 @@ std::vector<Method> all_methods() {
           method("hybrid", {.filter = ConeFilter::hybrid}, own_ewa),
           method("ewa", {.filter = ConeFilter::ewa}, own_ewa),
           method("gaussian, 1 %", {.filter = ConeFilter::gaussian}, own_cone),
-          method("gaussian, 0.1 %",
-                 {.filter = ConeFilter::gaussian, .accuracy = GaussianAccuracy::permille}, own_cone)};
+          method("gaussian, 0.1 %", {.filter = ConeFilter::gaussian, .accuracy = GaussianAccuracy::permille},
+                 own_cone)};
 }
 
 using Scene = std::function<double(const Vec3d&)>;

@@ -90,7 +90,8 @@ bool has_disc(const sphere::AnyParameterization& p) {
 PanelOptions panel_options(const PieceRequest& request) {
   const Settings settings(request);
   PanelOptions options;
-  options.aim = {settings.number_or("yaw", 0), settings.number_or("pitch", 0), settings.number_or("roll", 0)};
+  options.look = {settings.number_or("yaw", 0), settings.number_or("pitch", 0),
+                  settings.number_or("roll", 0)};
   options.feather = settings.number_or("feather", 0);
   if (!(options.feather >= 0 && options.feather <= 90))
     settings.refuse("feather: is 0 to 90 degrees inside the picture's edges");
@@ -117,7 +118,7 @@ BallPhotographOptions ball_options(const PieceRequest& request) {
   const Settings settings(request);
   const PanelOptions common = panel_options(request);
   BallPhotographOptions options;
-  options.aim = common.aim;
+  options.look = common.look;
   options.layer = common.layer;
   options.gain = common.gain;
   options.feather = settings.number_or("feather", options.feather);

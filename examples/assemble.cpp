@@ -17,13 +17,14 @@ int main(int argc, char** argv) try {
 
   const auto lens = welkin::sphere::AnyParameterization::make("fisheye-equisolid,fov=130");
   std::vector<welkin::Piece> pieces;
-  for (const welkin::Aim& aim : {welkin::Aim{0, 0, 0}, welkin::Aim{90, 0, 0}, welkin::Aim{180, 0, 0},
-                                 welkin::Aim{270, 0, 0}, welkin::Aim{0, 90, 0}, welkin::Aim{0, -90, 0}}) {
+  for (const welkin::Look& look :
+       {welkin::Look{0, 0, 0}, welkin::Look{90, 0, 0}, welkin::Look{180, 0, 0}, welkin::Look{270, 0, 0},
+        welkin::Look{0, 90, 0}, welkin::Look{0, -90, 0}}) {
     welkin::Map photograph(lens, 400, 400, world.channels());
-    photograph.orientation = transpose(rotation_of(aim));
+    photograph.orientation = transpose(rotation_of(look));
     welkin::resample(world, photograph);
-    pieces.push_back(welkin::make_panel("yaw " + std::to_string(static_cast<int>(aim.yaw)),
-                                        std::move(photograph), {.aim = aim, .feather = 10}));
+    pieces.push_back(welkin::make_panel("yaw " + std::to_string(static_cast<int>(look.yaw)),
+                                        std::move(photograph), {.look = look, .feather = 10}));
   }
   for (const welkin::Overlap& each : welkin::compare_overlaps(pieces))
     std::printf("%s and %s differ by %.2f %%\n", pieces[each.first].name.c_str(),

@@ -94,6 +94,7 @@
 #include "welkin/map_file/view_chains_file.h"
 #include "welkin/map_file/write_resampled.h"
 #include "welkin/math/angles.h"
+#include "welkin/math/look.h"
 #include "welkin/math/rotation.h"
 #include "welkin/math/scalar.h"
 #include "welkin/math/vec.h"

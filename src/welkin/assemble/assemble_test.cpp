@@ -6,12 +6,11 @@
 #include <limits>
 #include <vector>
 
-#include "welkin/assemble/flat_picture.h"
 #include "welkin/base/error.h"
+#include "welkin/base/number_text.h"
 #include "welkin/filter/sampler.h"
 #include "welkin/map/borders.h"
 #include "welkin/math/angles.h"
-#include "welkin/sphere/custom.h"
 #include "welkin/synth/render_synth.h"
 
 namespace welkin {
@@ -29,10 +28,12 @@ std::array<float, 3> white(const Vec3d&) {
   return {1, 1, 1};
 }
 
-Map flat(const synth::Radiance& world, double fov, const Aim& aim, int width = 96, int height = 96) {
+Map flat(const synth::Radiance& world, double fov, const Look& look, int width = 96, int height = 96) {
   RenderOptions options;
-  options.orientation = transpose(rotation_of(aim));
-  return render(world, sphere::make_parameterization(FlatPicture(fov, static_cast<double>(width) / height)),
+  options.orientation = transpose(rotation_of(look));
+  return render(world,
+                sphere::AnyParameterization::make("perspective,fov=" + number_text(fov) + ",aspect=" +
+                                                  number_text(static_cast<double>(width) / height)),
                 width, height, options);
 }
 
@@ -57,9 +58,10 @@ double difference(const Map& a, const Map& b) {
 
 std::vector<Piece> faces(const synth::Radiance& world, double fov, double feather) {
   std::vector<Piece> pieces;
-  for (const Aim& aim :
-       {Aim{0, 0, 0}, Aim{90, 0, 0}, Aim{180, 0, 0}, Aim{270, 0, 0}, Aim{0, 90, 0}, Aim{0, -90, 0}}) {
-    pieces.push_back(make_flat_panel("face", flat(world, fov, aim), fov, {.aim = aim, .feather = feather}));
+  for (const Look& look :
+       {Look{0, 0, 0}, Look{90, 0, 0}, Look{180, 0, 0}, Look{270, 0, 0}, Look{0, 90, 0}, Look{0, -90, 0}}) {
+    pieces.push_back(
+        make_flat_panel("face", flat(world, fov, look), fov, {.look = look, .feather = feather}));
   }
   return pieces;
 }
@@ -115,8 +117,8 @@ TEST(Assemble, AnyParameterizationIsMadeAlike) {
 TEST(Assemble, FeathersThatOverlapAddUp) {
   std::vector<Piece> pieces;
   for (const double yaw : {-25.0, 25.0}) {
-    const Aim aim{yaw, 0, 0};
-    pieces.push_back(make_flat_panel("half", flat(white, 60, aim), 60, {.aim = aim, .feather = 10}));
+    const Look look{yaw, 0, 0};
+    pieces.push_back(make_flat_panel("half", flat(white, 60, look), 60, {.look = look, .feather = 10}));
   }
   pieces.push_back(make_panel("behind", render(white, AnyParameterization::make("latlong"), 8, 4)));
   pieces.back().layer = kBackdrop;
@@ -216,7 +218,7 @@ TEST(Assemble, TheSharperPrevails) {
 }
 
 TEST(Assemble, AimsAsItSays) {
-  const auto where = [](const Aim& aim, const Vec3d& camera) { return rotation_of(aim) * camera; };
+  const auto where = [](const Look& look, const Vec3d& camera) { return rotation_of(look) * camera; };
   EXPECT_NEAR(where({90, 0, 0}, {0, 0, 1}).x, -1, 1e-12);
   EXPECT_NEAR(where({0, 90, 0}, {0, 0, 1}).y, 1, 1e-12);
   // Rolled clockwise, the camera's right side (−X) goes down.
@@ -253,7 +255,7 @@ TEST(Assemble, RefusesWhatMakesNoSense) {
   EXPECT_THROW(make_flat_panel("x", picture(), 60, {.feather = 91}), Error);
   EXPECT_THROW(make_flat_panel("x", picture(), 60, {.feather = kNaN}), Error);
   EXPECT_THROW(make_flat_panel("x", picture(), 60, {.gain = 0}), Error);
-  EXPECT_THROW(make_flat_panel("x", picture(), 60, {.aim = {kNaN, 0, 0}}), Error);
+  EXPECT_THROW(make_flat_panel("x", picture(), 60, {.look = {kNaN, 0, 0}}), Error);
   EXPECT_THROW(assemble({}, latlong(8)), Error);
   Map odd(AnyParameterization::make("latlong"), 8, 4, 5);
   EXPECT_THROW(make_panel("x", std::move(odd)), Error);

@@ -71,7 +71,7 @@ BallPiece make_ball_piece(std::string name, Map photograph, const BallPhotograph
 
   // The ball's frame has the camera on +Z: the camera's, turned by half a turn about +Y.
   const Matrix3 turn{{{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}}};
-  photograph.orientation = turn * transpose(rotation_of(options.aim));
+  photograph.orientation = turn * transpose(rotation_of(options.look));
   Piece piece(std::move(name),
               with_parameterization(sphere::make_parameterization(picture), std::move(photograph)));
   piece.feather = options.feather * kDegree;

@@ -14,7 +14,7 @@ namespace welkin {
 /// How a photograph of a mirror ball was taken. The ball is on the camera's axis, so that its outline is a
 /// circle.
 struct BallPhotographOptions {
-  Aim aim = {};  ///< where the camera looks: to the ball
+  Look look = {};  ///< where the camera looks: to the ball
   /// From the camera to the ball's centre, ball radii, from 1.01 on; infinity: so far away that rays are
   /// parallel.
   double distance = std::numeric_limits<double>::infinity();

@@ -16,7 +16,7 @@ struct BallShot {
   int width = 200, height = 200;
   PictureCircle circle{100, 100, 100};
   double distance = 20;
-  Aim aim = {};
+  Look look = {};
   double camera = 0;      ///< half angle of the black cone around the camera, as the ball shows it
   double background = 0;  ///< radiance beside the ball
   double gain = 1;
@@ -32,7 +32,7 @@ inline std::array<double, 3> radiance_of(const synth::Radiance& world, const Bal
   const Vec3d normal = (along - std::sqrt(discriminant)) * ray - centre;
   const Vec3d reflected = ray - (2 * dot(ray, normal)) * normal;
   if (angle_between(reflected, {0, 0, -1}) < shot.camera * kDegree) return {0, 0, 0};
-  const std::array<float, 3> seen = world(normalize(rotation_of(shot.aim) * reflected));
+  const std::array<float, 3> seen = world(normalize(rotation_of(shot.look) * reflected));
   return {shot.gain * static_cast<double>(seen[0]), shot.gain * static_cast<double>(seen[1]),
           shot.gain * static_cast<double>(seen[2])};
 }
@@ -67,7 +67,7 @@ inline std::array<float, 3> ball_world(const Vec3d& d) {
 
 inline BallPiece piece_of(const synth::Radiance& world, const BallShot& shot, double camera = 0) {
   BallPhotographOptions options;
-  options.aim = shot.aim;
+  options.look = shot.look;
   options.distance = shot.distance;
   options.circle = shot.circle;
   options.camera = camera;

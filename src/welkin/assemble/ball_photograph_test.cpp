@@ -76,7 +76,7 @@ TEST(BallPhotograph, TwoMakeTheWorld) {
   for (const double apart : {90.0, 120.0, 180.0}) {
     std::vector<Piece> pieces;
     for (const double yaw : {0.0, apart}) {
-      BallShot shot{.distance = 8, .aim = {yaw, 0, 0}, .camera = 10};
+      BallShot shot{.distance = 8, .look = {yaw, 0, 0}, .camera = 10};
       pieces.push_back(piece_of(ball_world, shot, 12).piece);
     }
     const Assembly made = assemble(pieces, latlong(180));
@@ -100,7 +100,7 @@ TEST(BallPhotograph, TheOneThatShowsADirectionWellPrevails) {
   std::vector<Piece> pieces;
   for (const double yaw : {0.0, 120.0})
     pieces.push_back(
-        piece_of(bands, {.width = 120, .height = 120, .circle = {60, 60, 60}, .aim = {yaw, 0, 0}}).piece);
+        piece_of(bands, {.width = 120, .height = 120, .circle = {60, 60, 60}, .look = {yaw, 0, 0}}).piece);
   const Map truth = render(bands, sphere::AnyParameterization::make("latlong"), 180, 90);
   const auto squares = [&](bool by_fineness) {
     const Map made = assemble(pieces, latlong(180), {.by_fineness = by_fineness}).map;
@@ -136,7 +136,7 @@ TEST(BallPhotograph, RefusesWhatMakesNoSense) {
   for (const double rim : {-1.0, 40.0, kNaN}) refuses({.rim = rim});
   refuses({.feather = kNaN});
   refuses({.gain = 0});
-  refuses({.aim = {kNaN, 0, 0}});
+  refuses({.look = {kNaN, 0, 0}});
 }
 
 }  // namespace

@@ -4,10 +4,8 @@
 
 #include <cmath>
 
-#include "welkin/assemble/flat_picture.h"
 #include "welkin/base/error.h"
 #include "welkin/math/angles.h"
-#include "welkin/sphere/custom.h"
 
 namespace welkin {
 namespace {
@@ -40,7 +38,7 @@ TEST(Edges, OfAWholeWorldAreNone) {
 // On the horizon, a flat picture of 60° across ends 30° from its centre; above, at its vertical field of
 // view.
 TEST(Edges, OfAFlatPictureAreItsSides) {
-  const auto caps = edges_of(sphere::make_parameterization(FlatPicture(60, 1.5)));
+  const auto caps = edges_of(sphere::AnyParameterization::make("perspective,fov=60,aspect=1.5"));
   ASSERT_EQ(caps.size(), 4u);
   EXPECT_NEAR(depth(caps, direction_at(25, 0)), 5 * kDegree, 1e-9);
   EXPECT_NEAR(depth(caps, direction_at(0, 0)), std::atan(std::tan(30 * kDegree) / 1.5), 1e-9);

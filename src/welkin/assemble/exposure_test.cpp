@@ -12,7 +12,7 @@ namespace {
 std::vector<Piece> balls(const std::vector<double>& gains) {
   std::vector<Piece> pieces;
   for (std::size_t k = 0; k < gains.size(); ++k) {
-    const BallShot shot{.distance = 10, .aim = {static_cast<double>(k) * 100, 0, 0}, .gain = gains[k]};
+    const BallShot shot{.distance = 10, .look = {static_cast<double>(k) * 100, 0, 0}, .gain = gains[k]};
     pieces.push_back(piece_of(ball_world, shot).piece);
   }
   return pieces;
@@ -48,7 +48,7 @@ TEST(Exposure, OutliersDontMove) {
     if (d.y > 0.8) seen = {50, 50, 50};
     return seen;
   };
-  pieces.push_back(piece_of(with_lamp, {.distance = 10, .aim = {100, 0, 0}, .gain = 2}).piece);
+  pieces.push_back(piece_of(with_lamp, {.distance = 10, .look = {100, 0, 0}, .gain = 2}).piece);
   match_exposures(pieces);
   EXPECT_NEAR(pieces[1].gain, 0.5, 0.02);
 }

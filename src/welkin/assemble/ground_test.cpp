@@ -23,13 +23,14 @@ std::array<float, 3> sky(const Vec3d& d) {
           d.y < 0 ? 5.0f : 0.0f, static_cast<float>(0.5 + std::fabs(d.y))};
 }
 
-std::vector<Piece> pieces_of(const std::string& shape, int size, const Aim& aim = {}) {
+std::vector<Piece> pieces_of(const std::string& shape, int size, const Look& look = {}) {
   RenderOptions options;
-  options.orientation = transpose(rotation_of(aim));
+  options.orientation = transpose(rotation_of(look));
   const auto p = sphere::AnyParameterization::make(shape);
   std::vector<Piece> pieces;
-  pieces.push_back(make_panel(
-      shape, render(sky, p, size, std::max(1, static_cast<int>(size / p.aspect())), options), {.aim = aim}));
+  pieces.push_back(make_panel(shape,
+                              render(sky, p, size, std::max(1, static_cast<int>(size / p.aspect())), options),
+                              {.look = look}));
   return pieces;
 }
 
@@ -43,11 +44,11 @@ Assembly world_of(const std::vector<Piece>& pieces) {
 
 // Of half worlds, and of a fish-eye picture that looks up: what is seen below is what is seen above.
 TEST(Ground, MirroredIsTheSkyUpsideDown) {
-  for (auto& [shape, aim] : {std::pair{"sky-latlong", Aim{}},
-                             {"half-cube", Aim{}},
-                             {"hemi-octahedral", Aim{}},
-                             {"fisheye-equidistant,fov=180", Aim{0, 90, 0}}}) {
-    std::vector<Piece> pieces = pieces_of(shape, 256, aim);
+  for (auto& [shape, look] : {std::pair{"sky-latlong", Look{}},
+                              {"half-cube", Look{}},
+                              {"hemi-octahedral", Look{}},
+                              {"fisheye-equidistant,fov=180", Look{0, 90, 0}}}) {
+    std::vector<Piece> pieces = pieces_of(shape, 256, look);
     add_ground(pieces, Ground::mirrored);
     const Assembly made = world_of(pieces);
     EXPECT_NEAR(made.shown, 1, 2e-3) << shape;

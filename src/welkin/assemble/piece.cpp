@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "welkin/assemble/circle_part.h"
-#include "welkin/assemble/flat_picture.h"
 #include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
 #include "welkin/base/parallel.h"
@@ -85,12 +84,6 @@ void check(const PanelOptions& options) {
 
 }  // namespace
 
-Matrix3 rotation_of(const Aim& aim) {
-  require(std::isfinite(aim.yaw) && std::isfinite(aim.pitch) && std::isfinite(aim.roll),
-          "the angles of a camera are finite");
-  return rotation_from_yaw_pitch_roll(-aim.yaw, -aim.pitch, aim.roll);
-}
-
 Piece::Piece(std::string what, Map pixels) : name(std::move(what)), map(with_colour_and_alpha(name, pixels)) {
   check_values(name, map);
   fill_borders(map);
@@ -98,7 +91,7 @@ Piece::Piece(std::string what, Map pixels) : name(std::move(what)), map(with_col
 
 Piece make_panel(std::string name, Map map, const PanelOptions& options) {
   check(options);
-  map.orientation = transpose(rotation_of(options.aim));
+  map.orientation = transpose(rotation_of(options.look));
   Piece piece(std::move(name), std::move(map));
   piece.feather = options.feather * kDegree;
   piece.layer = options.layer;
@@ -112,12 +105,13 @@ Piece make_panel(std::string name, Map map, const PanelOptions& options) {
 }
 
 Piece make_flat_panel(std::string name, Map picture, double fov, const PanelOptions& options) {
-  if (!(fov >= 0.001 && fov <= 179))
+  if (!(fov >= 0.1 && fov <= 179))
     throw Error(ErrorKind::bad_request, name,
-                "a flat picture's field of view is 0.001 to 179 degrees, not " + number_text(fov));
+                "a flat picture's field of view is 0.1 to 179 degrees, not " + number_text(fov));
   const double proportions = static_cast<double>(picture.width()) / picture.height();
-  require(proportions >= 1e-4 && proportions <= 1e4, "a flat picture is at most 10000 times as wide as high");
-  const auto flat = sphere::make_parameterization(FlatPicture(fov, proportions));
+  require(proportions >= 1e-3 && proportions <= 1e3, "a flat picture is at most 1000 times as wide as high");
+  const auto flat = sphere::AnyParameterization::make("perspective,fov=" + number_text(fov) +
+                                                      ",aspect=" + number_text(proportions));
   return make_panel(std::move(name), with_parameterization(flat, std::move(picture)), options);
 }
 

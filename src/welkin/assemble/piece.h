@@ -8,22 +8,11 @@
 #include "welkin/assemble/edges.h"
 #include "welkin/base/export.h"
 #include "welkin/map/map.h"
+#include "welkin/math/look.h"
 
 /// @file
 /// Pictures of parts of the world, from which one is assembled (assemble.h).
 namespace welkin {
-
-/// Where a camera looks, degrees. At 0, 0, 0 along +Z, the centre of a lat-long, with +Y up and −X on its
-/// right. Roll comes first, then pitch, then yaw.
-struct Aim {
-  double yaw = 0;    ///< as it grows, the camera turns to its right
-  double pitch = 0;  ///< as it grows, it looks higher
-  double roll = 0;  ///< as it grows, it tilts to its right: the horizon turns counterclockwise in the picture
-};
-
-/// From the camera's frame (it looks along +Z, +Y is up and −X on its right) to the world: the inverse of its
-/// pictures' Map::orientation. Throws Error (bad_request) for angles that aren't finite.
-WELKIN_API Matrix3 rotation_of(const Aim& aim);
 
 /// The layer of what lies behind all pieces and isn't one: a background.
 inline constexpr int kBackdrop = std::numeric_limits<int>::min();
@@ -56,14 +45,14 @@ WELKIN_API void check_circle(const std::string& name, const Map& picture, const 
 
 /// How a picture is placed in the world.
 struct PanelOptions {
-  Aim aim = {};        ///< where its centre looks
+  Look look = {};      ///< where its centre looks
   double feather = 0;  ///< degrees inside its edges over which it fades in, 0 … 90
   int layer = 0;       ///< Piece::layer
   double gain = 1;     ///< times its radiance, positive
 };
 
 /// A piece of a map whose parameterization shows part of the world, or all of it: the orientation becomes
-/// that of the aim. Throws Error (bad_request) for options out of range, (unsupported) for edges that can't
+/// that of the look. Throws Error (bad_request) for options out of range, (unsupported) for edges that can't
 /// be feathered (edges_of), and as Piece.
 WELKIN_API Piece make_panel(std::string name, Map map, const PanelOptions& options = {});
 

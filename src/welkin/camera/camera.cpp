@@ -135,10 +135,6 @@ std::string unmounted(const Mounted& mounted, Camera& camera, double& pitch) {
 
 }  // namespace
 
-Matrix3 rotation_of(const Look& look) {
-  return rotation_from_yaw_pitch_roll(-look.yaw, -look.pitch, look.roll);
-}
-
 FovAxis fov_axis_from_name(std::string_view name) {
   const std::vector<std::string> names{"horizontal", "vertical", "diagonal"};
   const auto at = std::find(names.begin(), names.end(), name);

@@ -7,23 +7,11 @@
 
 #include "welkin/base/export.h"
 #include "welkin/map/map.h"
+#include "welkin/math/look.h"
 
 /// @file
 /// Cameras: what part of the world a picture shows, and how.
 namespace welkin {
-
-/// Where a camera looks. All 0: along +Z, the centre of a lat-long, with +Y up and −X on the right. Degrees
-/// (docs/conventions.md): as `yaw` grows the camera turns to its right, as `pitch` grows it looks higher, and
-/// as `roll` grows it tilts to its right, so that the horizon turns counterclockwise in the picture. Roll
-/// comes first, then pitch, then yaw.
-struct Look {
-  double yaw = 0;    ///< about the world's up
-  double pitch = 0;  ///< about the camera's right
-  double roll = 0;   ///< about the camera's axis
-};
-
-/// The rotation from the camera (right −X, up +Y, ahead +Z) to the world.
-WELKIN_API Matrix3 rotation_of(const Look& look);
 
 /// Between which edges a field of view is measured.
 enum class FovAxis {
