@@ -21,9 +21,7 @@ using namespace welkin;
 using namespace welkin::bench;
 
 using Cones = std::vector<EllipticalCone>;
-
-/// Points along a texel's side of references.
-constexpr int kPoints = 2;
+constexpr int kPoints = 2;  ///< along a texel's side, of references
 
 double wide(float x) {
   return static_cast<double>(x);

@@ -2,7 +2,7 @@
 # Runs the benchmarks and prints their tables as Markdown; all of them together become docs/benchmarks.md.
 #
 # run.sh BUILD_FOLDER [WHAT…]
-#   WHAT               resample_speed look_up view_speed lookup_errors filter_quality round_trip every_parameterization read_speed texture_speed commands cold_convert
+#   WHAT               resample_speed look_up view_speed motion_blur lookup_errors filter_quality round_trip every_parameterization read_speed texture_speed commands cold_convert
 #                      peers prefilter_speed prefilter_quality prefilter_narrow view_lobe_errors view_stack_speed gaussian_look_up harmonics_speed light_speed importance_speed dfg_speed bc6h set_speed bake cold bake_peers frames assemble_speed;
 #                      some of these are only printed
 #
@@ -13,7 +13,7 @@
 #   WELKIN_BENCH_IBL_SAMPLER=FILE   the command of Khronos' glTF-IBL-Sampler
 set -euo pipefail
 
-everything=(resample_speed look_up view_speed lookup_errors filter_quality round_trip every_parameterization read_speed texture_speed commands cold_convert peers
+everything=(resample_speed look_up view_speed motion_blur lookup_errors filter_quality round_trip every_parameterization read_speed texture_speed commands cold_convert peers
   prefilter_speed prefilter_quality prefilter_narrow view_lobe_errors view_stack_speed gaussian_look_up harmonics_speed light_speed importance_speed dfg_speed bc6h set_speed bake cold bake_peers frames assemble_speed)
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 build=$(cd -- "${1:?run.sh BUILD_FOLDER [WHAT…]}" && pwd)

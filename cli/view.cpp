@@ -173,9 +173,9 @@ void add_view(CLI::App& app) {
       "--shutter", view->shutter,
       "OPEN,CLOSE in frames, as 0,0.5: blur the motion of --path between these times from each frame on");
   command
-      ->add_option(
-          "--samples", view->samples,
-          "With --shutter: positions of the camera that are averaged. Default: as many as pixels are swept")
+      ->add_option("--samples", view->samples,
+                   "With --shutter: positions of the camera that are averaged. Default: 1.5 for each pixel "
+                   "that is swept")
       ->check(CLI::Range(1, 1 << 16));
   command->add_option(
       "--over", view->over,

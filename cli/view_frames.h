@@ -54,6 +54,7 @@ struct ViewRequest {
     ImageView<float> view() { return map ? map->level.chart(0) : both.view(); }
   };
   class Sequence;
+  void run_frames() const;
 
   /// What is seen at a time in frames, from key frames where there are any.
   Camera camera_at(double frame) const;

@@ -20,6 +20,11 @@ constexpr int kLeastSamples = 16, kMostSamples = 1024, kMostAsked = 1 << 16;
 constexpr std::size_t kRun = 256;
 /// Points along each side of the picture at which its motion is measured, and times at which it is.
 constexpr int kProbes = 9, kTimes = 17;
+/// Of a pixel that is covered by one sample a pixel, the width that is read from the pyramid: positions in
+/// pixels differ, so that neighbouring samples cover more than one does.
+constexpr double kSharpness = 0.7;
+/// Samples for each pixel that the picture moves.
+constexpr double kSamplesPerPixel = 1.5;
 
 void check(const Shutter& shutter) {
   require(std::isfinite(shutter.open) && std::isfinite(shutter.close) && shutter.open <= shutter.close,
@@ -167,9 +172,9 @@ Map blurred_view(const Map& world, const std::function<Camera(double frame)>& ca
   require(!options.samples || (*options.samples >= 1 && *options.samples <= kMostAsked),
           "motion is blurred by 1 to 65536 samples");
   const double way = swept_pixels(camera, shutter);
-  const int count = options.samples
-                        ? *options.samples
-                        : std::clamp(static_cast<int>(std::ceil(way)), kLeastSamples, kMostSamples);
+  const int count = options.samples ? *options.samples
+                                    : std::clamp(static_cast<int>(std::ceil(kSamplesPerPixel * way)),
+                                                 kLeastSamples, kMostSamples);
   const std::vector<Exposure> exposures = exposures_of(camera, shutter, count);
   const Exposure middle = exposures_of(camera, shutter, 1).front();
   const ChartSize size = middle.frame.size;
@@ -186,7 +191,7 @@ Map blurred_view(const Map& world, const std::function<Camera(double frame)>& ca
     for (int run = 0; run < runs; ++run) {
       const double u = (std::min<double>(run * kRun + kRun / 2.0, size.width - 0.5)) / size.width,
                    v = (y + 0.5) / size.height;
-      const double texels = texels_per_pixel(world, middle, u, v) * std::max(apart, 0.5);
+      const double texels = texels_per_pixel(world, middle, u, v) * kSharpness * std::max(apart, 0.5);
       const double level = texels > 1 ? std::log2(texels) : 0;
       levels[static_cast<std::size_t>(y) * static_cast<std::size_t>(runs) + static_cast<std::size_t>(run)] =
           level;

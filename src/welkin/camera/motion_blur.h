@@ -20,8 +20,8 @@ struct Shutter {
 
 /// How motion is blurred.
 struct MotionBlurOptions {
-  /// Positions of the camera between open and close that are averaged; none: as many as the picture moves
-  /// pixels at its fastest, 16 at least and 1024 at most.
+  /// Positions of the camera between open and close that are averaged; none: one and a half for each pixel
+  /// that the picture moves at its fastest, 16 at least and 1024 at most.
   std::optional<int> samples = {};
   Monitor monitor = {};  ///< progress and cancelling
 };

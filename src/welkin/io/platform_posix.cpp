@@ -1,3 +1,5 @@
+// All that the library asks of a POSIX system: files, memory, signals, streams.
+// It is over 400 lines because this is the one file with code for one kind of system.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>

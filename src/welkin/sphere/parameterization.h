@@ -75,6 +75,7 @@ constexpr Traits traits_of() {
   }
 }
 
+/// @cond INTERNAL
 /// The struct whose functions are compiled as the kernels of P: a base of it that several share, and names as
 /// `KernelStruct`, or itself.
 template <class P>
@@ -88,6 +89,7 @@ requires requires {
 struct KernelStructOf<P> {
   using Type = typename P::KernelStruct;
 };
+/// @endcond
 
 /// For a parameterization whose charts are full and cover the whole sphere: inherit these.
 struct WholeWorld {

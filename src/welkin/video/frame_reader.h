@@ -31,8 +31,11 @@ class WELKIN_API FrameReader {
   FrameReader(ReadBytes read, std::string name, const StreamColour& colour = {},
               std::uint64_t max_bytes = std::uint64_t{32} << 30);
   ~FrameReader();
+  /// Moved, not copied: there is one stream.
+  /// @{
   FrameReader(FrameReader&&) noexcept;
   FrameReader& operator=(FrameReader&&) noexcept;
+  /// @}
 
   /// What the first header says.
   const StreamInfo& info() const;
