@@ -23,8 +23,6 @@ constexpr int kProbes = 9, kTimes = 17;
 /// Of a pixel that is covered by one sample a pixel, the width that is read from the pyramid: positions in
 /// pixels differ, so that neighbouring samples cover more than one does.
 constexpr double kSharpness = 0.7;
-/// Samples for each pixel that the picture moves.
-constexpr double kSamplesPerPixel = 1.5;
 
 void check(const Shutter& shutter) {
   require(std::isfinite(shutter.open) && std::isfinite(shutter.close) && shutter.open <= shutter.close,
@@ -43,6 +41,13 @@ struct Exposure {
 std::array<double, 2> place_in_pixel(int index) {
   const double x = 0.5 + 0.7548776662466927 * index, y = 0.5 + 0.5698402909980532 * index;
   return {x - std::floor(x), y - std::floor(y)};
+}
+
+/// How many positions of the camera are averaged. Over a long way a pixel's mean has settled before every
+/// texel on it is read.
+int samples_for(double way) {
+  return std::clamp(static_cast<int>(std::ceil(std::min(1.5 * way, 36 + way / 4))), kLeastSamples,
+                    kMostSamples);
 }
 
 std::vector<Exposure> exposures_of(const CameraAt& camera, const Shutter& shutter, int count) {
@@ -172,9 +177,7 @@ Map blurred_view(const Map& world, const std::function<Camera(double frame)>& ca
   require(!options.samples || (*options.samples >= 1 && *options.samples <= kMostAsked),
           "motion is blurred by 1 to 65536 samples");
   const double way = swept_pixels(camera, shutter);
-  const int count = options.samples ? *options.samples
-                                    : std::clamp(static_cast<int>(std::ceil(kSamplesPerPixel * way)),
-                                                 kLeastSamples, kMostSamples);
+  const int count = options.samples ? *options.samples : samples_for(way);
   const std::vector<Exposure> exposures = exposures_of(camera, shutter, count);
   const Exposure middle = exposures_of(camera, shutter, 1).front();
   const ChartSize size = middle.frame.size;

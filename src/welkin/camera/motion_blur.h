@@ -21,7 +21,7 @@ struct Shutter {
 /// How motion is blurred.
 struct MotionBlurOptions {
   /// Positions of the camera between open and close that are averaged; none: one and a half for each pixel
-  /// that the picture moves at its fastest, 16 at least and 1024 at most.
+  /// that the picture moves at its fastest, fewer beyond 29 pixels, 16 at least and 1024 at most.
   std::optional<int> samples = {};
   Monitor monitor = {};  ///< progress and cancelling
 };
