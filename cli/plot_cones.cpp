@@ -50,10 +50,10 @@ void add_plot_cones(CLI::App& plot) {
   command->add_option("OUT", request->out, "Picture to write; - is standard output, see --format")
       ->required();
   command
-      ->add_option(
-          "--filter", request->filters,
-          "nearest, bilinear, trilinear, differential, mirrored, box, sat, probes, ewa, hybrid; again "
-          "for more tiles. Default: all that the map can be looked up with")
+      ->add_option("--filter", request->filters,
+                   "nearest, bilinear, trilinear, differential, mirrored, box, sat, probes, ewa, hybrid, "
+                   "gaussian; again "
+                   "for more tiles. Default: all that the map can be looked up with")
       ->allow_extra_args(false);
   command->add_option("--to", request->sheet.camera, "Parameterization that tiles are pictures of")
       ->capture_default_str();

@@ -17,6 +17,6 @@ matches '^Usage: welkin plot fresnel' help plot fresnel
 for name in $("$welkin" list lobes | cut -d ' ' -f 1 | grep -v '^table,'); do must plot lobe --lobe "$name"; done
 matches '^ggx,f0=' list brdfs
 matches '^welkin [0-9]+\.[0-9]+\.[0-9]+$' --version
-for format in $("$welkin" list formats | grep -v -e 'read only' -e '^env$'); do must convert card.exr "listed.$format"; done
+for format in $("$welkin" list formats | grep -v -e 'read only' -e '^env$' -e '^glb$'); do must convert card.exr "listed.$format"; done
 
 finish

@@ -164,7 +164,7 @@ struct Equisolid : Frame {
 /// r = sin θ. At 180° the rim is singular, as that of FisheyeOrthographic.
 struct Orthographic : Frame {
   static constexpr const char* kName = "orthographic";
-  explicit Orthographic(double fov_degrees = 120) : Frame(Lens::orthographic, fov_degrees, 180, 180) {}
+  explicit Orthographic(double fov_degrees = 80) : Frame(Lens::orthographic, fov_degrees, 180, 180) {}
 };
 
 }  // namespace welkin::sphere
