@@ -192,7 +192,7 @@ Map blurred_view(const Map& world, const std::function<Camera(double frame)>& ca
   double coarsest = 0;
   for (int y = 0; y < size.height; ++y) {
     for (int run = 0; run < runs; ++run) {
-      const double u = (std::min<double>(run * kRun + kRun / 2.0, size.width - 0.5)) / size.width,
+      const double u = (std::min((run + 0.5) * static_cast<double>(kRun), size.width - 0.5)) / size.width,
                    v = (y + 0.5) / size.height;
       const double texels = texels_per_pixel(world, middle, u, v) * kSharpness * std::max(apart, 0.5);
       const double level = texels > 1 ? std::log2(texels) : 0;

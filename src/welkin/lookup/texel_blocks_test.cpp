@@ -16,7 +16,8 @@ TEST(TexelBlocks, HoldEveryTexelOfAStripWhereverItLies) {
   for (const std::string& spec : cases::names_and_windows()) {
     const Map map = cases::make_map(spec, 40);
     const TexelBlocks blocks(map.parameterization, map.level);
-    for (const auto& [reach, across] : {std::pair{0.05, 0.05}, {0.8, 0.1}, {3.2, 0.02}, {4.0, 4.0}}) {
+    for (const auto& strip : {std::pair{0.05, 0.05}, {0.8, 0.1}, {3.2, 0.02}, {4.0, 4.0}}) {
+      const double reach = strip.first, across = strip.second;
       for (int k = 0; k < 6; ++k) {
         const Vec3d d = k < 2 ? Vec3d{0, k == 0 ? 1.0 : -1.0, 0}
                               : normalize(Vec3d{along(random), along(random), along(random)});

@@ -86,7 +86,7 @@ ByteRemap::ByteRemap(const MapFrame& source, const MapFrame& target, const Layou
   check_turns(layout, target.size);
   if (static_cast<std::uint64_t>(source_.width) * static_cast<std::uint64_t>(source_.height) >= kIsEdge)
     throw Error(ErrorKind::too_large, "an 8-bit picture of 2³¹ pixels and more is not resampled");
-  const auto [width, height] = target.size;
+  const int width = target.size.width, height = target.size.height;
   target_ = {layout.columns * width, layout.rows * height};
   taps_.assign(static_cast<std::size_t>(target_.width) * static_cast<std::size_t>(target_.height),
                {kIsFill, 0, 0});

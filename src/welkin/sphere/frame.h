@@ -78,12 +78,17 @@ class Frame {
   Mask<T> covers(const Vec3<T>& d) const {
     const ChartPoint<T> at = from_sphere(d);
     const T half = constant<T>(0.5), most = constant<T>(std::same_as<T, double> ? 0.5 + 1e-12 : 0.5 + 1e-6);
-    const auto inside = (abs(at.u - half) <= most) & (abs(at.v - half) <= most);
-    if (is_radial(lens_)) return inside & (d.z >= constant<T>(rim_cosine_) * length(d));
+    const Mask<T> across = abs(at.u - half) <= most, down = abs(at.v - half) <= most;
+    const Mask<T> inside = across & down;
     if (lens_ == Lens::cylindrical) return inside;
+    if (is_radial(lens_)) {
+      const Mask<T> before_rim = d.z >= constant<T>(rim_cosine_) * length(d);
+      return inside & before_rim;
+    }
     // Past the last column of the plane S is no longer S.
     const T level = sqrt(d.x * d.x + d.z * d.z);
-    return inside & (constant<T>(shape.distance) * level + d.z >= constant<T>(1e-4) * level);
+    const Mask<T> before_last = constant<T>(shape.distance) * level + d.z >= constant<T>(1e-4) * level;
+    return inside & before_last;
   }
   double coverage() const { return coverage_; }
 
@@ -123,7 +128,8 @@ class Frame {
   double edge(double x0, double y0, double x1, double y1) const;
 
   Lens lens_;
-  double widest_, sees_;
+  // Only visitors read these.
+  [[maybe_unused]] double widest_, sees_;
   double half_width_ = 1, half_height_ = 1;    // of the plane
   double rim_cosine_ = -2, rim_distance_ = 0;  // of radial lenses
   double coverage_ = 0;
