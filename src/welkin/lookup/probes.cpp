@@ -44,7 +44,16 @@ class ProbesLookUp final : public ConeLookUp {
     }
     flush(batch, radiance);
     if (whole_world_) return;
-    // What the map doesn't show is left out.
+    // What the map doesn't show is left out. Where a wide row misses all of it, its middle stands for it.
+    for (std::size_t i = 0; i < cones.size(); ++i) {
+      if (batch.shown[i] > 0) continue;
+      batch.directions[batch.count] = cones[i].world;
+      batch.levels[batch.count] = trilinear_.level_of(cones[i].wide * cones[i].narrow, areas[i]);
+      batch.share[batch.count] = 1;
+      batch.owner[batch.count] = i;
+      ++batch.count;
+    }
+    flush(batch, radiance);
     for (std::size_t i = 0; i < cones.size(); ++i) {
       const float shown = batch.shown[i];
       for (std::size_t c = 0; c < channels; ++c) {

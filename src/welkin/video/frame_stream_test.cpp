@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "welkin/base/error.h"
 #include "welkin/video/frame_reader.h"
@@ -28,7 +28,7 @@ FrameReader reader_of(const Bytes& bytes, const StreamColour& colour = {},
   return FrameReader(
       [bytes, at](std::span<std::byte> to) {
         const std::size_t count = std::min(to.size(), bytes.size() - *at);
-        std::memcpy(to.data(), bytes.data() + *at, count);
+        std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(*at), count, to.begin());
         *at += count;
         return count;
       },
