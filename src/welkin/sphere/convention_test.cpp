@@ -153,7 +153,7 @@ TEST(Convention, EveryPanoramaAndDiscIsKnownAsOne) {
     };
     const bool parallel = std::fabs(p.to_sphere(0, 0.25, 0.4).y - p.to_sphere(0, 0.5, 0.4).y) < 1e-6;
     const double quarter = longitude(0.25);
-    const bool panorama = p.valid(0, 0.01, 0.01) && parallel && quarter > 0.1 &&
+    const bool panorama = p.valid(0, 0.01, 0.01) && parallel && quarter > 0.4 &&
                           std::fabs(longitude(0.75) + quarter) < 0.02 &&
                           std::fabs(longitude(0.375) - quarter / 2) < 0.02;
     const bool disc = p.to_sphere(0, 0.5, 0.5).z > 0.999;
