@@ -227,7 +227,7 @@ class FrameReader::State {
       damaged("frame " + number + " is " + std::to_string(b.width) + "×" + std::to_string(b.height) +
               " of another kind or size than frame 0, of " + std::to_string(a.width) + "×" +
               std::to_string(a.height));
-    if (next.largest != header_.largest || next.little_endian != header_.little_endian)
+    if (b.largest != a.largest || next.little_endian != header_.little_endian)
       damaged("frame " + number + " stores its values in another way than frame 0");
     return true;
   }

@@ -48,14 +48,16 @@ int whole_number(const NextByte& next, const char* what, int largest) {
   return value;
 }
 
-/// Values of integers, linear.
-std::vector<float> table_of(int largest, bool linear) {
-  std::vector<float> table(static_cast<std::size_t>(largest) + 1);
-  for (std::size_t i = 0; i < table.size(); ++i) {
+/// Values of integers, linear. Those of the usual ranges are made once; `own` holds another's.
+std::span<const float> table_of(int largest, bool linear, std::vector<float>& own) {
+  if (largest == 255) return linear ? io::unorm8_to_float() : io::srgb8_to_linear();
+  if (largest == 65535) return linear ? io::unorm16_to_float() : io::srgb16_to_linear();
+  own.resize(static_cast<std::size_t>(largest) + 1);
+  for (std::size_t i = 0; i < own.size(); ++i) {
     const double value = static_cast<double>(i) / largest;
-    table[i] = static_cast<float>(linear ? value : io::srgb_to_linear(value));
+    own[i] = static_cast<float>(linear ? value : io::srgb_to_linear(value));
   }
-  return table;
+  return own;
 }
 
 void append(std::vector<std::byte>& bytes, const std::string& text) {
@@ -74,9 +76,8 @@ PixmapHeader read_pixmap_header(char kind, const NextByte& next) {
   header.info.width = whole_number(next, "width", kLongestSide);
   header.info.height = whole_number(next, "height", kLongestSide);
   if (!floats) {
-    header.largest = whole_number(next, "largest value", kLargestValue);
-    header.info.largest = header.largest;
-    header.info.bits = header.largest > 255 ? 16 : 8;
+    header.info.largest = whole_number(next, "largest value", kLargestValue);
+    header.info.bits = header.info.largest > 255 ? 16 : 8;
     return header;
   }
   header.info.bits = 32;
@@ -99,9 +100,10 @@ void decode_pixmap(const PixmapHeader& header, const StreamColour& colour, std::
   const int values = header.info.width * header.info.channels;
   const std::size_t stride =
       static_cast<std::size_t>(values) * static_cast<std::size_t>(header.info.bits / 8);
-  const std::vector<float> table =
-      header.info.kind == StreamKind::ppm ? table_of(header.largest, colour.linear) : std::vector<float>();
-  const auto largest = static_cast<unsigned>(header.largest);
+  std::vector<float> own;
+  std::span<const float> table;
+  if (header.info.kind == StreamKind::ppm) table = table_of(header.info.largest, colour.linear, own);
+  const auto largest = static_cast<unsigned>(header.info.largest);
   const std::endian order = header.little_endian ? std::endian::little : std::endian::big;
   parallel_for(header.info.height, [&](int y) {
     const bool upwards = header.info.kind == StreamKind::pfm;

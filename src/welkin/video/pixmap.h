@@ -17,7 +17,6 @@ namespace welkin::video {
 /// Header of one frame, and how its values are stored.
 struct PixmapHeader {
   StreamInfo info;
-  int largest = 255;           ///< of integers
   bool little_endian = false;  ///< of floats
 };
 
