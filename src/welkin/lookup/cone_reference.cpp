@@ -9,14 +9,11 @@
 
 #include "welkin/base/error.h"
 #include "welkin/lookup/tangent_plane.h"
+#include "welkin/lookup/vec_precision.h"
 #include "welkin/math/angles.h"
 
 namespace welkin {
 namespace {
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 /// 1 − (coth κ − 1/κ).
 double missing_cosine(double concentration) {

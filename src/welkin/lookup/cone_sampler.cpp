@@ -9,6 +9,7 @@
 #include "welkin/lookup/cone_filters.h"
 #include "welkin/lookup/cone_shapes.h"
 #include "welkin/lookup/square_octahedron.h"
+#include "welkin/lookup/vec_precision.h"
 
 namespace welkin {
 namespace {
@@ -59,14 +60,6 @@ void require_finite(const Map& map) {
       }
     }
   }
-}
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
 [[noreturn]] void refuse_cone(std::size_t index, const std::string& fault) {

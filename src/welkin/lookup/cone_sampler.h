@@ -72,7 +72,7 @@ struct ConeSamplerOptions {
 /// direction that it does not show, else the mean over what it shows.
 ///
 /// A map of one radiance has that radiance over every cone, to 1e-6; where radiance is positive
-/// everywhere, it is over every cone.
+/// everywhere, it is over every cone; over those of `gaussian` it is at least not negative.
 ///
 /// Throws Error, before anything is written: a cone that fault_of finds a fault with (the message has its
 /// number); `radiance` too short.

@@ -6,16 +6,13 @@
 #include "welkin/base/error.h"
 #include "welkin/lobe/zonal.h"
 #include "welkin/lookup/tangent_plane.h"
+#include "welkin/lookup/vec_precision.h"
 
 namespace welkin {
 namespace {
 
 bool is_finite(const Vec3d& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 /// The cone of second moments Σ in a plane.

@@ -5,16 +5,13 @@
 #include <cmath>
 
 #include "welkin/lookup/block_directions.h"
+#include "welkin/lookup/vec_precision.h"
 
 namespace welkin {
 namespace {
 
 /// σ at which weights end.
 constexpr float kReach = 4;
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// Adds weight × solid angle × radiance of a row of texels, and the weights. `kChannels` is 0 where their
 /// number is known at run time alone.

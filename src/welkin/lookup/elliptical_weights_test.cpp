@@ -8,13 +8,10 @@
 
 #include "welkin/base/cpu.h"
 #include "welkin/lookup/tangent_plane.h"
+#include "welkin/lookup/vec_precision.h"
 
 namespace welkin::test {
 namespace {
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// Against float64, at distances up to the antipode.
 void compare(WeighDirections weigh) {

@@ -5,6 +5,7 @@
 #include "welkin/filter/sampler.h"
 #include "welkin/lookup/elliptical_sum.h"
 #include "welkin/lookup/texel_shape.h"
+#include "welkin/lookup/vec_precision.h"
 #include "welkin/map/pyramid.h"
 
 namespace welkin {
@@ -21,10 +22,6 @@ constexpr double kTexelsPerSigma = 3.5;
 constexpr double kLongest = 16;
 /// Hybrid: texels along a chart's side of its coarsest level, at least.
 constexpr int kCoarsest = 8;
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 /// A cone as a Gaussian in texels of level 0.
 struct TexelGaussian {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "welkin/base/parallel.h"
+#include "welkin/lookup/cone_reference.h"
 #include "welkin/lookup/gaussian_kernels.h"
 #include "welkin/lookup/gaussian_levels.h"
 
@@ -31,7 +32,7 @@ struct Window {
 class Windows {
  public:
   Windows(const GaussianBlur& blur, int size, int margin) : blur_(blur), size_(size), margin_(margin) {
-    for (std::size_t i = 0; i < 2; ++i) kappa_[i] = gaussian_concentration(blur.variances[i]);
+    for (std::size_t i = 0; i < 2; ++i) kappa_[i] = vmf_concentration(std::sqrt(blur.variances[i]));
   }
 
   /// Of the texel (x, y) of the results, counted from their margin's first.

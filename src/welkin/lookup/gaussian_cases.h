@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "welkin/lookup/cone.h"
-#include "welkin/lookup/gaussian_levels.h"
+#include "welkin/lookup/cone_reference.h"
 #include "welkin/map/texel_points.h"
 
 /// What tests and benchmarks of Gaussian look-ups share: the mean over a cone by its definition, in float64.
@@ -64,7 +64,7 @@ class GaussianReference {
       const Vec3d axis{cone.axis.x, cone.axis.y, cone.axis.z};
       a = normalize(axis - dot(axis, d) * d);
     }
-    const double kappa = gaussian_concentration(narrow * narrow);
+    const double kappa = vmf_concentration(narrow);
     const double peak = kappa / (2 * kPi * -std::expm1(-2 * kappa));
 
     std::vector<Vec3d> taps;

@@ -12,6 +12,7 @@
 
 #include "welkin/base/number_text.h"
 #include "welkin/base/parallel.h"
+#include "welkin/lookup/cone_reference.h"
 #include "welkin/lookup/gaussian_blur.h"
 #include "welkin/lookup/gaussian_kernels.h"
 #include "welkin/lookup/gaussian_taps.h"
@@ -21,12 +22,6 @@
 
 namespace welkin {
 namespace {
-
-/// coth κ − 1/κ, the mean cosine.
-double mean_cosine(double kappa) {
-  if (kappa < 1e-3) return kappa / 3;
-  return 1 / std::tanh(kappa) - 1 / kappa;
-}
 
 /// Chebyshev's nodes of two lie this far from the middle of an interval, in its half lengths.
 constexpr double kNode = 0.70710678118654752;
@@ -286,7 +281,7 @@ std::vector<Map> prefiltered(const Map& map, const GaussianLevels& levels, std::
     const GaussianInterval& interval = levels.intervals[k];
     const int side = interval.size + 2 * PaddedCube::kMargin;
     for (const double variance : {double{interval.node}, double{interval.wider}}) {
-      const double kappa = gaussian_concentration(variance);
+      const double kappa = vmf_concentration(std::sqrt(variance));
       lobes.push_back({{side, side}, lobe::AnyLobe::make("vmf,kappa=" + number_text(kappa))});
     }
   }
@@ -329,21 +324,6 @@ GaussianQuality quality_of(GaussianAccuracy accuracy) {
           .blur_tail = 0.4,
           .tail = 0.2,
           .tolerance = 2e-3};
-}
-
-double gaussian_concentration(double variance) {
-  const double wanted = std::exp(-variance);
-  // Newton's steps from the limits for narrow and for wide lobes; the derivative is 1 − A² − 2A/κ.
-  double kappa = variance < 1 ? 1 / variance + 0.5 : 3 * wanted;
-  if (kappa > 1e6) return kappa;
-  for (int i = 0; i < 50; ++i) {
-    const double a = mean_cosine(kappa);
-    const double slope = kappa < 1e-2 ? 1.0 / 3 : 1 - a * a - 2 * a / kappa;
-    const double next = std::max(kappa / 4, kappa - (a - wanted) / slope);
-    if (std::fabs(next - kappa) <= 1e-12 * kappa) return next;
-    kappa = next;
-  }
-  return kappa;
 }
 
 GaussianLevels make_gaussian_levels(const Map& map, GaussianAccuracy accuracy, const Monitor& monitor) {

@@ -69,7 +69,4 @@ struct GaussianLevels {
 
 GaussianLevels make_gaussian_levels(const Map& map, GaussianAccuracy accuracy, const Monitor& monitor);
 
-/// κ of the von Mises–Fisher distribution whose mean cosine is exp(−σ²).
-double gaussian_concentration(double variance);
-
 }  // namespace welkin

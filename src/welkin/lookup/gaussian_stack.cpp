@@ -9,6 +9,7 @@
 
 #include "welkin/base/cpu.h"
 #include "welkin/lookup/gaussian_state.h"
+#include "welkin/lookup/vec_precision.h"
 
 namespace welkin {
 namespace {
@@ -26,10 +27,6 @@ bool is_plain(const EllipticalCone& cone) {
   if (cone.wide == cone.narrow) return true;
   const float a = squared(cone.axis);
   return a > kLeast && a < kMost && squared(cross(cone.direction, cone.axis)) > 1e-4f * a * d;
-}
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 /// A cone with unit vectors.

@@ -11,16 +11,13 @@
 #include "welkin/base/error.h"
 #include "welkin/filter/sampler.h"
 #include "welkin/lookup/gaussian_cases.h"
+#include "welkin/lookup/vec_precision.h"
 #include "welkin/map/borders.h"
 #include "welkin/math/rotation.h"
 #include "welkin/synth/render_synth.h"
 
 namespace welkin::test {
 namespace {
-
-Vec3<float> narrow(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 Map synthetic(const char* name, const char* parameterization, int width, int height) {
   return render(synth::make(name), sphere::AnyParameterization::make(parameterization), width, height);
@@ -167,7 +164,7 @@ TEST(GaussianStack, TurnsWithTheMap) {
   const std::vector<EllipticalCone> list = cones(100, 0.06, 0.4, 3);
   const GaussianStack straight = GaussianStack::borrow(map);
   std::vector<EllipticalCone> turned = list;
-  const auto rotated = [&](const Vec3<float>& v) { return narrow(transpose(turn) * Vec3d{v.x, v.y, v.z}); };
+  const auto rotated = [&](const Vec3<float>& v) { return to_float(transpose(turn) * Vec3d{v.x, v.y, v.z}); };
   for (EllipticalCone& cone : turned)
     cone = {rotated(cone.direction), rotated(cone.axis), cone.wide, cone.narrow};
   std::vector<float> before(300), after(300);
@@ -194,7 +191,7 @@ TEST(GaussianStack, KeepsTheLightOfAPannedSun) {
           const double polar = (row + 0.5) * kPi / 64, round = (column + 0.5) * kPi / 64;
           const Vec3d d{std::sin(polar) * std::sin(round), std::cos(polar),
                         std::sin(polar) * std::cos(round)};
-          list.push_back({narrow(turn * d), {}, 0.07f, 0.07f});
+          list.push_back({to_float(turn * d), {}, 0.07f, 0.07f});
           areas.push_back(std::sin(polar));
         }
       }
@@ -227,13 +224,13 @@ TEST(GaussianStack, CountsWhatIsNotShownAsBlack) {
   const GaussianStack stack = GaussianStack::borrow(map, {GaussianAccuracy::permille});
   const auto at = [&](const Vec3d& direction, float sigma) {
     float value = 0;
-    stack.look_up(EllipticalCone{narrow(direction), {}, sigma, sigma}, {&value, 1});
+    stack.look_up(EllipticalCone{to_float(direction), {}, sigma, sigma}, {&value, 1});
     return value;
   };
   const GaussianReference reference(map);
   for (const float sigma : {0.05f, 0.3f, 1.0f}) {
     for (const Vec3d& d : {Vec3d{0, 1, 0}, {1, 0, 0}, {0.6, 0.2, -1}, {0, -1, 0.1}}) {
-      EXPECT_NEAR(at(d, sigma), reference.mean({narrow(d), {}, sigma, sigma})[0], 0.004) << sigma;
+      EXPECT_NEAR(at(d, sigma), reference.mean({to_float(d), {}, sigma, sigma})[0], 0.004) << sigma;
     }
   }
 }

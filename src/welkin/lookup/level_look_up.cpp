@@ -7,13 +7,10 @@
 #include "welkin/lookup/cone_filters.h"
 #include "welkin/lookup/square_octahedron.h"
 #include "welkin/lookup/trilinear.h"
+#include "welkin/lookup/vec_precision.h"
 
 namespace welkin {
 namespace {
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 /// A box of a pixel's width has a σ of it /√12.
 const double kPixelWidth = std::sqrt(12.0);

@@ -9,13 +9,10 @@
 #include "welkin/lookup/gaussian_boxes.h"
 #include "welkin/lookup/summed_area.h"
 #include "welkin/lookup/texel_shape.h"
+#include "welkin/lookup/vec_precision.h"
 
 namespace welkin {
 namespace {
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 class SummedAreaLookUp final : public ConeLookUp {
  public:
