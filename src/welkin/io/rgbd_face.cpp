@@ -31,8 +31,6 @@ std::unique_ptr<FormatReader> open_face(std::span<const std::byte> bytes, const 
   return format->open({bytes, name, options});
 }
 
-}  // namespace
-
 std::vector<std::byte> rgbd_png(const WritePart& part, WriteReport& report) {
   const Image encoded = encode_light(part, kRgbd, report);
   Image upside_down(encoded.width(), encoded.height(), 4);
@@ -44,6 +42,33 @@ std::vector<std::byte> rgbd_png(const WritePart& part, WriteReport& report) {
   MemorySink sink;
   write_png(sink, {&picture, 1}, options);
   return sink.take();
+}
+
+}  // namespace
+
+Capabilities rgbd_cube(std::string format, std::string title, std::string irradiance) {
+  return {.format = format,
+          .title = std::move(title),
+          .extensions = {format},
+          .types = {PixelType::uint8},
+          .compressions = {"zip"},
+          .channels = Channels::rgb,
+          .pictures = true,
+          .levels = true,
+          .texture = true,
+          .lossless = false,
+          .hdr = true,
+          .attributes = true,
+          .irradiance = std::move(irradiance),
+          .longest_side = kLargestRgbdFace};
+}
+
+std::vector<std::vector<std::byte>> rgbd_pngs(const texels::PictureSet& cube, WriteReport& report) {
+  std::vector<std::vector<std::byte>> images;
+  for (int level = 0; level < cube.shape().levels; ++level) {
+    for (int face = 0; face < 6; ++face) images.push_back(rgbd_png(cube.at(level, face), report));
+  }
+  return images;
 }
 
 void read_face(std::span<const std::byte> bytes, const std::string& name, const Source& file, bool plain,

@@ -78,8 +78,8 @@ void check_shape(const texels::TextureShape& shape) {
   };
   if (shape.faces != 6 || shape.layers > 0) refuse("one cube texture, not pictures of another kind");
   const auto side = static_cast<unsigned>(shape.width);
-  if (!std::has_single_bit(side) || shape.width > kLargestFace)
-    refuse("faces of a power of two up to " + std::to_string(kLargestFace) + ", not of " +
+  if (!std::has_single_bit(side) || shape.width > kLargestRgbdFace)
+    refuse("faces of a power of two up to " + std::to_string(kLargestRgbdFace) + ", not of " +
            std::to_string(shape.width) + ": Babylon.js counts its levels by log2 of that");
   const int all = static_cast<int>(std::bit_width(side));
   if (shape.levels != all)
@@ -93,14 +93,9 @@ WriteReport write_env(ByteSink& file, std::span<const WritePart> parts, const Wr
   const texels::PictureSet pictures(parts);
   check_shape(pictures.shape());
   WriteReport report;
-  std::vector<std::vector<std::byte>> images;
+  const std::vector<std::vector<std::byte>> images = rgbd_pngs(pictures, report);
   std::vector<std::uint64_t> sizes;
-  for (int level = 0; level < pictures.shape().levels; ++level) {
-    for (int face = 0; face < 6; ++face) {
-      images.push_back(rgbd_png(pictures.at(level, face), report));
-      sizes.push_back(images.back().size());
-    }
-  }
+  for (const std::vector<std::byte>& image : images) sizes.push_back(image.size());
   file.write(std::as_bytes(std::span(kMagic)));
   const std::string text =
       manifest_text(pictures.shape().width, sizes, options.irradiance, options.attributes);
@@ -113,23 +108,7 @@ WriteReport write_env(ByteSink& file, std::span<const WritePart> parts, const Wr
 }  // namespace env
 
 Format env_format() {
-  return {{.format = "env",
-           .title = "Babylon.js's .env",
-           .extensions = {"env"},
-           .types = {PixelType::uint8},
-           .compressions = {"zip"},
-           .channels = Channels::rgb,
-           .pictures = true,
-           .levels = true,
-           .texture = true,
-           .lossless = false,
-           .hdr = true,
-           .attributes = true,
-           .irradiance = "babylon",
-           .longest_side = env::kLargestFace},
-          env::matches,
-          env::open_env,
-          env::write_env};
+  return {rgbd_cube("env", "Babylon.js's .env", "babylon"), env::matches, env::open_env, env::write_env};
 }
 
 }  // namespace welkin::io

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "welkin/base/error.h"
+#include "welkin/io/member.h"
 
 namespace welkin::io::env {
 namespace {
@@ -21,20 +22,13 @@ constexpr const char* kOurs = "welkin";
   throw Error(ErrorKind::damaged, source.name, cause);
 }
 
-/// The member, or null where it or the object is missing.
-const ordered_json& member(const ordered_json& object, const char* name) {
-  static const ordered_json none;
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  return found == object.end() ? none : *found;
-}
-
 int face_width(const Source& source, const ordered_json& json) {
   const ordered_json& width = member(json, "width");
   if (!width.is_number_unsigned()) damaged(source, "its manifest has no width");
   const auto value = width.get<std::uint64_t>();
-  if (value < 1 || value > kLargestFace || !std::has_single_bit(value))
+  if (value < 1 || value > kLargestRgbdFace || !std::has_single_bit(value))
     damaged(source, "its faces are " + std::to_string(value) + " wide, no power of two up to " +
-                        std::to_string(kLargestFace));
+                        std::to_string(kLargestRgbdFace));
   return static_cast<int>(value);
 }
 
@@ -88,11 +82,7 @@ Manifest parse_manifest(const Source& source) {
     if (std::isfinite(value) && value > 0) manifest.lod_scale = value;
   }
   manifest.irradiance = member(member(json, "irradiance"), "xx").is_array();
-  if (const ordered_json& ours = member(json, kOurs); ours.is_object()) {
-    for (const auto& [key, value] : ours.items()) {
-      if (value.is_string()) manifest.attributes[key] = value.get<std::string>();
-    }
-  }
+  manifest.attributes = text_members(member(json, kOurs));
   return manifest;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "welkin/io/format.h"
+#include "welkin/io/rgbd_face.h"
 
 /// The text at the beginning of a Babylon.js environment, `.env`: JSON, ended by a zero byte.
 namespace welkin::io::env {
@@ -15,9 +16,6 @@ inline constexpr unsigned char kMagic[8] = {0x86, 0x16, 0x87, 0x96, 0xf6, 0xd6, 
 
 /// Longer manifests are none: of the largest faces it is some 10 KB.
 inline constexpr std::size_t kLongestManifest = 1 << 20;
-
-/// The largest face.
-inline constexpr int kLargestFace = 1 << 14;
 
 /// Where an image lies, from the first byte of the file.
 struct Extent {

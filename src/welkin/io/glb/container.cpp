@@ -8,6 +8,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/io/byte_order.h"
+#include "welkin/io/member.h"
 
 namespace welkin::io::glb {
 namespace {
@@ -26,13 +27,6 @@ constexpr const char* kOurs = "welkin";
 
 std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t at) {
   return load<std::uint32_t>(bytes.data() + at, std::endian::little);
-}
-
-/// The member, or null where it or the object is missing.
-const ordered_json& member(const ordered_json& object, const char* name) {
-  static const ordered_json none;
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  return found == object.end() ? none : *found;
 }
 
 /// The element, or null where there is none.
@@ -151,8 +145,8 @@ Light parse_light(const Source& source) {
   Light read;
   read.lights = lights.size();
   const ordered_json& width = member(light, "specularImageSize");
-  if (!width.is_number() || !(width.get<double>() >= 1 && width.get<double>() <= kLargestFace))
-    damaged(source, "its light's specularImageSize is none of 1 … " + std::to_string(kLargestFace));
+  if (!width.is_number() || !(width.get<double>() >= 1 && width.get<double>() <= kLargestRgbdFace))
+    damaged(source, "its light's specularImageSize is none of 1 … " + std::to_string(kLargestRgbdFace));
   read.width = static_cast<int>(width.get<double>());
   if (!std::has_single_bit(static_cast<unsigned>(read.width)))
     damaged(source, "its light's faces are " + std::to_string(read.width) + " wide, no power of two");
@@ -165,11 +159,7 @@ Light parse_light(const Source& source) {
     for (const ordered_json& index : faces) read.images.push_back(image_of(source, chunks, index));
   }
   read_numbers(source, light, read);
-  if (const ordered_json& ours = member(member(light, "extras"), kOurs); ours.is_object()) {
-    for (const auto& [key, value] : ours.items()) {
-      if (value.is_string()) read.attributes[key] = value.get<std::string>();
-    }
-  }
+  read.attributes = text_members(member(member(light, "extras"), kOurs));
   return read;
 }
 

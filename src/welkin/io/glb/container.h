@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "welkin/io/format.h"
+#include "welkin/io/rgbd_face.h"
 
 /// The image-based light of a glTF file in its binary form, `.glb`: the extension EXT_lights_image_based.
 ///
@@ -13,7 +14,6 @@
 namespace welkin::io::glb {
 
 inline constexpr char kExtension[] = "EXT_lights_image_based";
-inline constexpr int kLargestFace = 1 << 14;
 
 /// Whether the bytes begin a binary glTF file.
 bool matches(std::span<const std::byte> bytes);

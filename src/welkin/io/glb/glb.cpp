@@ -92,8 +92,8 @@ void check_shape(const texels::TextureShape& shape) {
     throw Error(ErrorKind::unsupported, "the light of a .glb is " + cause);
   };
   if (shape.faces != 6 || shape.layers > 0) refuse("one cube texture, not pictures of another kind");
-  if (!std::has_single_bit(static_cast<unsigned>(shape.width)) || shape.width > kLargestFace)
-    refuse("of faces of a power of two up to " + std::to_string(kLargestFace) + ", not of " +
+  if (!std::has_single_bit(static_cast<unsigned>(shape.width)) || shape.width > kLargestRgbdFace)
+    refuse("of faces of a power of two up to " + std::to_string(kLargestRgbdFace) + ", not of " +
            std::to_string(shape.width));
 }
 
@@ -106,10 +106,7 @@ WriteReport write_glb(ByteSink& file, std::span<const WritePart> parts, const Wr
   const texels::PictureSet pictures(parts);
   check_shape(pictures.shape());
   WriteReport report;
-  std::vector<std::vector<std::byte>> images;
-  for (int level = 0; level < pictures.shape().levels; ++level) {
-    for (int face = 0; face < 6; ++face) images.push_back(rgbd_png(pictures.at(level, face), report));
-  }
+  const std::vector<std::vector<std::byte>> images = rgbd_pngs(pictures, report);
   file.write(file_of(pictures.shape().width, images, options.irradiance, options.attributes));
   return report;
 }
@@ -118,22 +115,7 @@ WriteReport write_glb(ByteSink& file, std::span<const WritePart> parts, const Wr
 }  // namespace glb
 
 Format glb_format() {
-  return {{.format = "glb",
-           .title = "glTF's image-based light (.glb)",
-           .extensions = {"glb"},
-           .types = {PixelType::uint8},
-           .compressions = {"zip"},
-           .channels = Channels::rgb,
-           .pictures = true,
-           .levels = true,
-           .texture = true,
-           .lossless = false,
-           .hdr = true,
-           .attributes = true,
-           .irradiance = "gltf",
-           .longest_side = glb::kLargestFace},
-          glb::matches,
-          glb::open_glb,
+  return {rgbd_cube("glb", "glTF's image-based light (.glb)", "gltf"), glb::matches, glb::open_glb,
           glb::write_glb};
 }
 
