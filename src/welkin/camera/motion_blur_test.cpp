@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "welkin/base/error.h"
+#include "welkin/camera/camera_cases.h"
 #include "welkin/camera/camera_path.h"
 #include "welkin/camera/view.h"
 #include "welkin/map/borders.h"
@@ -13,24 +14,12 @@
 namespace welkin {
 namespace {
 
-/// Bands and squares with hard edges, and a small light.
+/// Bands and squares with hard edges.
 Map patterned_world(const char* parameterization, int width) {
-  const auto p = sphere::AnyParameterization::make(parameterization);
-  const int height = static_cast<int>(width / p.aspect());
-  Map map(p, width, height, 3);
-  for (int chart = 0; chart < p.charts(); ++chart) {
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const Vec3d d = p.to_sphere(chart, (x + 0.5) / width, (y + 0.5) / height);
-        float* texel = map.level.chart(chart).at(x, y);
-        texel[0] = static_cast<float>(1 + d.x);
-        texel[1] = std::sin(14 * std::atan2(d.x, d.z)) * std::sin(9 * d.y) > 0 ? 1.0f : 0.1f;
-        texel[2] = std::fabs(d.y) < 0.05 ? 0.2f : 0.8f;
-      }
-    }
-  }
-  fill_borders(map);
-  return map;
+  return cases::coloured_world(parameterization, width, [](const Vec3d& d) {
+    return cases::Colour{1 + d.x, std::sin(14 * std::atan2(d.x, d.z)) * std::sin(9 * d.y) > 0 ? 1.0 : 0.1,
+                         std::fabs(d.y) < 0.05 ? 0.2 : 0.8};
+  });
 }
 
 /// Turns, rolls and zooms.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "welkin/base/error.h"
+#include "welkin/camera/camera_cases.h"
 #include "welkin/filter/sampler.h"
 #include "welkin/map/borders.h"
 
@@ -10,22 +11,9 @@ namespace welkin {
 namespace {
 
 Map smooth_world(const char* parameterization, int width) {
-  const auto p = sphere::AnyParameterization::make(parameterization);
-  const int height = static_cast<int>(width / p.aspect());
-  Map map(p, width, height, 3);
-  for (int chart = 0; chart < p.charts(); ++chart) {
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const Vec3d d = p.to_sphere(chart, (x + 0.5) / width, (y + 0.5) / height);
-        float* texel = map.level.chart(chart).at(x, y);
-        texel[0] = static_cast<float>(1 + d.x);
-        texel[1] = static_cast<float>(1 + d.y * d.z);
-        texel[2] = static_cast<float>(1 + 0.5 * std::sin(3 * d.z));
-      }
-    }
-  }
-  fill_borders(map);
-  return map;
+  return cases::coloured_world(parameterization, width, [](const Vec3d& d) {
+    return cases::Colour{1 + d.x, 1 + d.y * d.z, 1 + 0.5 * std::sin(3 * d.z)};
+  });
 }
 
 Camera camera_of(const char* lens) {
