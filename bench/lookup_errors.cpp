@@ -233,6 +233,29 @@ std::vector<std::string> columns_of(const std::vector<Case>& cases) {
   return columns;
 }
 
+/// A row for each method, a cell for each case that it can be used on.
+void print_table(const std::vector<Case>& cases, const std::vector<Method>& methods,
+                 const std::function<std::string(const Case&, const Method&, const LookUp&)>& cell) {
+  const Table table(columns_of(cases));
+  for (const Method& each : methods) {
+    std::vector<std::string> row{each.name};
+    for (const Case& scene : cases) {
+      const LookUp look_up = each.on(scene.map);
+      row.push_back(look_up ? cell(scene, each, look_up) : "–");
+    }
+    table.row(row);
+  }
+}
+
+/// Of the first `count` cones, against `truth` of each.
+std::string errors_of(const Case& scene, const LookUp& look_up, std::size_t count,
+                      const std::function<double(std::size_t)>& truth) {
+  const auto radiance = looked_up(look_up, scene.cones, 3);
+  Errors errors;
+  for (std::size_t i = 0; i < count; ++i) errors.add(wide(radiance[3 * i]), truth(i), scene.mean);
+  return errors.cell();
+}
+
 void print_errors(const std::vector<Case>& cases, const std::vector<Method>& methods) {
   heading("Look-ups over cones");
   paragraph(
@@ -243,23 +266,9 @@ void print_errors(const std::vector<Case>& cases, const std::vector<Method>& met
       " cones in each. The error against the mean over the cone in float64, as a part of it but at least of "
       "a tenth of "
       "the map's mean: root mean square % / largest %.\n");
-  const Table table(columns_of(cases));
-  for (const Method& each : methods) {
-    std::vector<std::string> row{each.name};
-    for (const Case& scene : cases) {
-      const LookUp look_up = each.on(scene.map);
-      if (!look_up) {
-        row.push_back("–");
-        continue;
-      }
-      const auto radiance = looked_up(look_up, scene.cones, 3);
-      Errors errors;
-      for (std::size_t i = 0; i < scene.cones.size(); ++i)
-        errors.add(wide(radiance[3 * i]), scene.truth[i][0], scene.mean);
-      row.push_back(errors.cell());
-    }
-    table.row(row);
-  }
+  print_table(cases, methods, [](const Case& scene, const Method&, const LookUp& look_up) {
+    return errors_of(scene, look_up, scene.cones.size(), [&](std::size_t i) { return scene.truth[i][0]; });
+  });
 }
 
 void print_own_errors(const std::vector<Case>& cases, const std::vector<Method>& methods) {
@@ -269,38 +278,21 @@ void print_own_errors(const std::vector<Case>& cases, const std::vector<Method>&
       "of the same area (trilinear) or as wide as the longer side (differential, mirrored), squares and "
       "rectangles of the map's texels (box, sat), a row of circles (probes), the Gaussian of the logarithm "
       "map (ewa, hybrid).\n");
-  const Table table(columns_of(cases));
+  std::vector<Method> with_kernel;
   for (const Method& each : methods) {
-    if (!each.own) continue;
-    std::vector<std::string> row{each.name};
-    for (const Case& scene : cases) {
-      const LookUp look_up = each.on(scene.map);
-      if (!look_up) {
-        row.push_back("–");
-        continue;
-      }
-      const auto radiance = looked_up(look_up, scene.cones, 3);
-      Errors errors;
-      for (std::size_t i = 0; i < kOwn; ++i) {
-        errors.add(wide(radiance[3 * i]), each.own(scene.map, scene.cones[i])[0], scene.mean);
-      }
-      row.push_back(errors.cell());
-    }
-    table.row(row);
+    if (each.own) with_kernel.push_back(each);
   }
+  print_table(cases, with_kernel, [](const Case& scene, const Method& method, const LookUp& look_up) {
+    return errors_of(scene, look_up, kOwn,
+                     [&](std::size_t i) { return method.own(scene.map, scene.cones[i])[0]; });
+  });
 }
 
 void print_times(const std::vector<Case>& cases, const std::vector<Method>& methods) {
   paragraph("\nNanoseconds of processor time for one, among many, one thread, the best of nine runs.\n");
-  const Table table(columns_of(cases));
-  for (const Method& each : methods) {
-    std::vector<std::string> row{each.name};
-    for (const Case& scene : cases) {
-      const LookUp look_up = each.on(scene.map);
-      row.push_back(look_up ? nanoseconds(look_up, scene.cones, 3) : "–");
-    }
-    table.row(row);
-  }
+  print_table(cases, methods, [](const Case& scene, const Method&, const LookUp& look_up) {
+    return nanoseconds(look_up, scene.cones, 3);
+  });
 }
 
 /// What a cone's width does to the cost.

@@ -33,9 +33,8 @@ std::vector<double> mean_of_views(const Map& world, const std::function<Camera(d
   std::vector<double> sum(static_cast<std::size_t>(kSize.width * kSize.height * 3));
   for (int i = 0; i < kSharp; ++i) {
     const Map picture = view(world, camera((i + 0.5) / kSharp), {.borders = false});
-    const float* values = picture.level.chart(0).row(0);
     for (int y = 0; y < kSize.height; ++y) {
-      values = picture.level.chart(0).row(y);
+      const float* const values = picture.level.chart(0).row(y);
       for (int k = 0; k < 3 * kSize.width; ++k)
         sum[static_cast<std::size_t>(y * 3 * kSize.width + k)] += static_cast<double>(values[k]) / kSharp;
     }
