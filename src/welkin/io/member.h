@@ -1,25 +1,27 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
-/// Members of JSON that other programs wrote.
+/// Members of JSON that other programs wrote: of nlohmann's values, which headers don't include. Internal to
+/// io.
 namespace welkin::io {
 
 /// The member, or null where it or the object is missing.
-inline const nlohmann::ordered_json& member(const nlohmann::ordered_json& object, const char* name) {
-  static const nlohmann::ordered_json none;
+template <class Json>
+const Json& member(const Json& object, const char* name) {
+  static const Json none;
   const auto found = object.is_object() ? object.find(name) : object.end();
   return found == object.end() ? none : *found;
 }
 
 /// All members that are texts, of an object; of anything else none.
-inline std::map<std::string, std::string> text_members(const nlohmann::ordered_json& object) {
+template <class Json>
+std::map<std::string, std::string> text_members(const Json& object) {
   std::map<std::string, std::string> texts;
   if (!object.is_object()) return texts;
   for (const auto& [key, value] : object.items()) {
-    if (value.is_string()) texts[key] = value.get<std::string>();
+    if (value.is_string()) texts[key] = value.template get<std::string>();
   }
   return texts;
 }
