@@ -15,17 +15,6 @@
 #include "welkin/sequence/made_note.h"
 
 namespace welkin::cli {
-namespace {
-
-io::WriteReport& operator+=(io::WriteReport& sum, const io::WriteReport& report) {
-  sum.above += report.above;
-  sum.below += report.below;
-  sum.not_finite += report.not_finite;
-  return sum;
-}
-
-}  // namespace
-
 /// The frames of a request, read, made and written at the same time.
 class ViewRequest::Sequence {
  public:
@@ -230,7 +219,7 @@ class ViewRequest::Sequence {
 
   void put(Frame& frame) {
     if (!outputs_) writer_->put(frame.made);
-    losses_ += frame.losses;
+    losses_ = losses_ + frame.losses;
     ++done_;
     if (progress_.progress && !list_.empty())
       progress_.progress(static_cast<double>(done_) / static_cast<double>(list_.size()));

@@ -41,6 +41,4 @@ class PixelEncoder {
   std::optional<int> alpha_;
 };
 
-WriteReport operator+(const WriteReport& a, const WriteReport& b);
-
 }  // namespace welkin::io

@@ -201,6 +201,9 @@ struct WELKIN_API WriteReport {
   double relative_rmse() const;
 };
 
+/// What both lost.
+WELKIN_API WriteReport operator+(const WriteReport& a, const WriteReport& b);
+
 /// Writes pictures to a file: to a temporary one beside `path`, then renamed, so that on any failure nothing
 /// is left and an older file of that name stays. The format follows the name's extension. More than one part:
 /// EXR, KTX2 and TIFF only. Values that the format can't hold are clipped and counted in the report. Throws

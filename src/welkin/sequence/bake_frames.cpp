@@ -30,12 +30,6 @@ using namespace sequence;
 
 namespace {
 
-void add(io::WriteReport& total, const io::WriteReport& report) {
-  total.above += report.above;
-  total.below += report.below;
-  total.not_finite += report.not_finite;
-}
-
 /// A frame on its way through the pipeline.
 struct Travelling {
   BakedFrame what;
@@ -186,7 +180,7 @@ void FrameBaker::write(int frame, const Chain& chain, const std::string& note, s
   if (io::capabilities_for(out_.name()).attributes) how.image.attributes[kFrameKey] = note;
   const io::WriteReport losses = write_chain(out_.file(frame), chain, *layout_, how);
   const std::scoped_lock lock(mutex_);
-  add(report_.losses, losses);
+  report_.losses = report_.losses + losses;
   written.push_back(frame);
 }
 

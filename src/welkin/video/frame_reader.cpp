@@ -108,11 +108,10 @@ StreamInfo y4m_info(const std::string& line) {
   return info;
 }
 
-}  // namespace
-
-class FrameReader::State {
+/// What a FrameReader is.
+class StreamReader {
  public:
-  State(ReadBytes read, std::string name, const StreamColour& colour, std::uint64_t max_bytes)
+  StreamReader(ReadBytes read, std::string name, const StreamColour& colour, std::uint64_t max_bytes)
       : read_(std::move(read)), name_(std::move(name)), colour_(colour) {
     guard([&] {
       const std::string magic = characters(2);
@@ -238,6 +237,13 @@ class FrameReader::State {
   PixmapHeader header_;
   bool pending_ = false;  ///< the first pixmap's header has been read
   std::uint64_t frames_ = 0;
+};
+
+}  // namespace
+
+class FrameReader::State : public StreamReader {
+ public:
+  using StreamReader::StreamReader;
 };
 
 FrameReader::FrameReader(ReadBytes read, std::string name, const StreamColour& colour,

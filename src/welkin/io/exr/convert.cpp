@@ -53,8 +53,4 @@ void convert_from_float(std::span<const float> from, StoredType type, std::byte*
   }
 }
 
-WriteReport added(const WriteReport& a, const WriteReport& b) {
-  return {a.above + b.above, a.below + b.below, a.not_finite + b.not_finite};
-}
-
 }  // namespace welkin::io::exr

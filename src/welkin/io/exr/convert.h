@@ -10,7 +10,4 @@ namespace welkin::io::exr {
 /// Stores floats as `type`, little-endian, and counts in `report` what the type cannot hold (see write_exr).
 void convert_from_float(std::span<const float> from, StoredType type, std::byte* to, WriteReport& report);
 
-/// Both counts together.
-WriteReport added(const WriteReport& a, const WriteReport& b);
-
 }  // namespace welkin::io::exr

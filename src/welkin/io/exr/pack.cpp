@@ -227,7 +227,7 @@ void write_chunks(Imf::OStream& stream, const Layout& layout, std::vector<std::u
     for (std::size_t at = 0; at < piece->size; at += kMaxWrite)
       stream.write(reinterpret_cast<const char*>(piece->bytes.data()) + at,
                    static_cast<int>(std::min(kMaxWrite, piece->size - at)));
-    report = added(report, piece->report);
+    report = report + piece->report;
   };
   tbb::parallel_pipeline(at_once,
                          tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, choose) &

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <mutex>
 #include <set>
 
@@ -206,8 +207,8 @@ WriteReport write_part(Imf::OutputPart& output, const WritePart& part, StoredTyp
                                converted.data() + row_bytes * static_cast<std::size_t>(row), sum);
           return sum;
         },
-        added);
-    report = added(report, of_band);
+        std::plus<WriteReport>());
+    report = report + of_band;
     write_rows(output, part, type, converted.data(), y, rows, row_bytes);
   }
   return report;
@@ -220,7 +221,7 @@ WriteReport write_by_library(Imf::OStream& stream, const std::vector<Imf::Header
   WriteReport report;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     Imf::OutputPart part(output, static_cast<int>(i));
-    report = added(report, write_part(part, parts[i], type, threads));
+    report = report + write_part(part, parts[i], type, threads);
   }
   return report;
 }
