@@ -1,6 +1,6 @@
 #include "welkin/io/jxl/functions.h"
 
-#include "welkin/io/late_library.h"
+#include "welkin/base/late_library.h"
 
 // Its interface changes with the minor version: the one whose headers this was compiled with is loaded.
 #define WELKIN_TEXT_OF(NUMBER) #NUMBER
@@ -11,7 +11,7 @@ namespace welkin::io {
 
 const Libjxl& libjxl() {
   static const Libjxl loaded = [] {
-    const LateLibrary file("libjxl.so." WELKIN_LIBJXL_VERSION, "libjxl" WELKIN_LIBJXL_VERSION);
+    const LateLibrary file("libjxl.so." WELKIN_LIBJXL_VERSION, "libjxl" WELKIN_LIBJXL_VERSION, "reads such files");
     Libjxl functions;
 #define WELKIN_FIND(NAME) file.find(#NAME, functions.NAME);
     WELKIN_LIBJXL_FUNCTIONS(WELKIN_FIND)

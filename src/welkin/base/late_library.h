@@ -1,7 +1,7 @@
 #pragma once
 
 /// Libraries that are loaded when they are first needed.
-namespace welkin::io {
+namespace welkin {
 
 /// A shared library that the program isn't linked with, because loading it and all that it brings along costs
 /// every process milliseconds. It stays loaded until the process ends. To be kept in a function's static
@@ -9,8 +9,9 @@ namespace welkin::io {
 class LateLibrary {
  public:
   /// `file` is called as the system's loader finds it, `libheif.so.1`; `package` is the package of Debian
-  /// that holds it. Throws Error (unsupported), without the name of a picture's file.
-  LateLibrary(const char* file, const char* package);
+  /// that holds it, `purpose` what it is for, `reads such files`. Throws Error (unsupported), without the
+  /// name of a picture's file.
+  LateLibrary(const char* file, const char* package, const char* purpose);
 
   /// The library's function `name`. Throws Error (unsupported) where it has none.
   template <class Function>
@@ -26,4 +27,4 @@ class LateLibrary {
   void* handle_;
 };
 
-}  // namespace welkin::io
+}  // namespace welkin

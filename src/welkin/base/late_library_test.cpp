@@ -1,10 +1,10 @@
-#include "welkin/io/late_library.h"
+#include "welkin/base/late_library.h"
 
 #include <gtest/gtest.h>
 
 #include "welkin/base/error.h"
 
-namespace welkin::io {
+namespace welkin {
 namespace {
 
 // A library that the tests are linked with anyhow.
@@ -12,7 +12,7 @@ constexpr const char* kFile = "libz.so.1";
 
 TEST(LateLibrary, FindsFunctions) {
   unsigned long (*crc32)(unsigned long, const unsigned char*, unsigned) = nullptr;
-  LateLibrary(kFile, "zlib1g").find("crc32", crc32);
+  LateLibrary(kFile, "zlib1g", "packs bytes").find("crc32", crc32);
   ASSERT_NE(crc32, nullptr);
   const unsigned char text[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
   EXPECT_EQ(crc32(0, text, sizeof text), 0xcbf43926u);  // the check value of CRC-32
@@ -20,7 +20,7 @@ TEST(LateLibrary, FindsFunctions) {
 
 TEST(LateLibrary, OneThatIsMissingIsNamedWithItsPackage) {
   try {
-    const LateLibrary library("libwelkin_missing.so.7", "libmissing7");
+    const LateLibrary library("libwelkin_missing.so.7", "libmissing7", "reads such files");
     FAIL() << "a library that isn't there was loaded";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unsupported);
@@ -36,7 +36,7 @@ TEST(LateLibrary, OneThatIsMissingIsNamedWithItsPackage) {
 TEST(LateLibrary, FunctionThatIsMissingIsNamed) {
   void (*function)() = nullptr;
   try {
-    LateLibrary(kFile, "zlib1g").find("welkin_missing", function);
+    LateLibrary(kFile, "zlib1g", "packs bytes").find("welkin_missing", function);
     FAIL() << "a function that isn't there was found";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unsupported);
@@ -48,4 +48,4 @@ TEST(LateLibrary, FunctionThatIsMissingIsNamed) {
 }
 
 }  // namespace
-}  // namespace welkin::io
+}  // namespace welkin

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "welkin/base/error.h"
-#include "welkin/io/late_library.h"
+#include "welkin/base/late_library.h"
 
-namespace welkin::io {
+namespace welkin {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, const char* package) {
@@ -16,10 +16,10 @@ namespace {
 
 }  // namespace
 
-LateLibrary::LateLibrary(const char* file, const char* package)
+LateLibrary::LateLibrary(const char* file, const char* package, const char* purpose)
     : file_(file), package_(package), handle_(::dlopen(file, RTLD_NOW | RTLD_LOCAL)) {
   if (handle_ == nullptr)
-    fail("the library " + std::string(file) + ", which reads such files, cannot be loaded", package);
+    fail("the library " + std::string(file) + ", which " + purpose + ", cannot be loaded", package);
 }
 
 void* LateLibrary::address_of(const char* name) const {
@@ -29,4 +29,4 @@ void* LateLibrary::address_of(const char* name) const {
   return address;
 }
 
-}  // namespace welkin::io
+}  // namespace welkin
