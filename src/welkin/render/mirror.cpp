@@ -1,0 +1,203 @@
+#include <algorithm>
+
+#include "welkin/brdf/microfacet.h"
+#include "welkin/render/shading_look_ups.h"
+
+namespace welkin::scene {
+namespace {
+
+double cosine_of(const Surface& at) {
+  return std::clamp(dot(at.normal, at.view), 0.0, 1.0);
+}
+
+const Sampler& diffuse_of(const World& world) {
+  return world.diffuse();
+}
+
+const FilteredLook kDiffuse{diffuse_of, [](const Surface& at) { return at.normal; }, nullptr};
+
+/// `mirror`: the world over the pixel's reflected cone; Fresnel's part of it over diffuse light.
+class Mirror : public Shading {
+ public:
+  Mirror(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
+    for (const World* world : all_worlds()) {
+      world->cones();
+      if (options_.fresnel != Fresnel::none) world->diffuse();
+    }
+  }
+
+  void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
+    std::vector<SurfaceCone> cones;
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i)
+      cones.push_back({i, reflected(surfaces[i]), normal_spread(surfaces[i])});
+    look_up_cones(worlds_, surfaces, cones, options_, radiance);
+    if (options_.fresnel == Fresnel::none) {
+      for (std::size_t i = 0; i < surfaces.size(); ++i)
+        radiance[i] = surfaces[i].material.base_color * radiance[i];
+      return;
+    }
+    std::vector<Rgb> diffuse(surfaces.size());
+    look_up_filtered(worlds_, surfaces, kDiffuse, diffuse);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const double f = brdf::fresnel_dielectric(cosine_of(surfaces[i]), options_.eta);
+      const double rest = options_.fresnel == Fresnel::share ? 1 - f : 1;
+      radiance[i] = f * radiance[i] + rest * (surfaces[i].material.base_color * diffuse[i]);
+    }
+  }
+
+ private:
+  std::vector<const World*> all_worlds() const {
+    std::vector<const World*> all{&worlds_.whole};
+    for (const World& world : worlds_.own) all.push_back(&world);
+    return all;
+  }
+
+  Worlds worlds_;
+  ShadingOptions options_;
+};
+
+/// `refraction`: F of the reflected cone, the rest of the one bent once.
+class Refraction : public Shading {
+ public:
+  Refraction(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
+    worlds_.whole.cones();
+    for (const World& world : worlds_.own) world.cones();
+  }
+
+  void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
+    std::vector<SurfaceCone> cones;
+    const auto count = static_cast<std::uint32_t>(surfaces.size());
+    for (std::uint32_t i = 0; i < count; ++i)
+      cones.push_back({i, reflected(surfaces[i]), normal_spread(surfaces[i])});
+    for (std::uint32_t i = 0; i < count; ++i)
+      cones.push_back({i, refracted(surfaces[i], eta_of(surfaces[i])), 0});
+    std::vector<Rgb> both(cones.size());
+    look_up_cones(worlds_, surfaces, cones, options_, both);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double f = brdf::fresnel_dielectric(cosine_of(surfaces[i]), eta_of(surfaces[i]));
+      radiance[i] = f * both[i] + (1 - f) * (surfaces[i].material.base_color * both[count + i]);
+    }
+  }
+
+ private:
+  double eta_of(const Surface& at) const { return at.from_behind ? 1 / options_.eta : options_.eta; }
+
+  Worlds worlds_;
+  ShadingOptions options_;
+};
+
+/// `diffuse`.
+class Diffuse : public Shading {
+ public:
+  Diffuse(const Worlds& worlds, const ShadingOptions&) : worlds_(worlds) {
+    worlds_.whole.diffuse();
+    for (const World& world : worlds_.own) world.diffuse();
+  }
+
+  void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
+    look_up_filtered(worlds_, surfaces, kDiffuse, radiance);
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      radiance[i] = surfaces[i].material.base_color * radiance[i];
+  }
+
+ private:
+  Worlds worlds_;
+};
+
+/// `globe`: dc·D + sc·S without an ambient term, sc the material's metallic and dc what is left.
+class Globe : public Shading {
+ public:
+  Globe(const Worlds& worlds, const ShadingOptions& options)
+      : diffuse_(worlds, options), mirror_(worlds, plain(options)) {}
+
+  void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
+    std::vector<Rgb> specular(surfaces.size());
+    diffuse_.shade(surfaces, radiance);
+    mirror_.shade(surfaces, specular);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const double sc = surfaces[i].material.metallic;
+      radiance[i] = (1 - sc) * radiance[i] + sc * specular[i];
+    }
+  }
+
+ private:
+  static ShadingOptions plain(ShadingOptions options) {
+    options.fresnel = Fresnel::none;
+    return options;
+  }
+
+  Diffuse diffuse_;
+  Mirror mirror_;
+};
+
+/// `phong`: the light in Phong's lobe, and diffuse light as for a mirror.
+class Phong : public Shading {
+ public:
+  Phong(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
+    const auto prepare = [&](const World& world) {
+      world.phong(options.exponent);
+      if (options.fresnel != Fresnel::none) world.diffuse();
+    };
+    prepare(worlds_.whole);
+    for (const World& world : worlds_.own) prepare(world);
+  }
+
+  void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
+    const double exponent = options_.exponent;
+    look_up_filtered(worlds_, surfaces,
+                     {[exponent](const World& world) -> const Sampler& { return world.phong(exponent); },
+                      [](const Surface& at) { return reflected(at).direction; }, nullptr},
+                     radiance);
+    if (options_.fresnel == Fresnel::none) {
+      for (std::size_t i = 0; i < surfaces.size(); ++i)
+        radiance[i] = surfaces[i].material.base_color * radiance[i];
+      return;
+    }
+    std::vector<Rgb> diffuse(surfaces.size());
+    look_up_filtered(worlds_, surfaces, kDiffuse, diffuse);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const double f = brdf::fresnel_dielectric(cosine_of(surfaces[i]), options_.eta);
+      const double rest = options_.fresnel == Fresnel::share ? 1 - f : 1;
+      radiance[i] = f * radiance[i] + rest * (surfaces[i].material.base_color * diffuse[i]);
+    }
+  }
+
+ private:
+  Worlds worlds_;
+  ShadingOptions options_;
+};
+
+/// `normals`.
+class Normals : public Shading {
+ public:
+  void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const Vec3d& n = surfaces[i].normal;
+      const auto half = [](double c) { return static_cast<float>((c + 1) / 2); };
+      radiance[i] = {half(n.x), half(n.y), half(n.z)};
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Shading> make_mirror(const Worlds& worlds, const ShadingOptions& options) {
+  return std::make_unique<Mirror>(worlds, options);
+}
+std::unique_ptr<Shading> make_refraction(const Worlds& worlds, const ShadingOptions& options) {
+  return std::make_unique<Refraction>(worlds, options);
+}
+std::unique_ptr<Shading> make_diffuse(const Worlds& worlds, const ShadingOptions& options) {
+  return std::make_unique<Diffuse>(worlds, options);
+}
+std::unique_ptr<Shading> make_globe(const Worlds& worlds, const ShadingOptions& options) {
+  return std::make_unique<Globe>(worlds, options);
+}
+std::unique_ptr<Shading> make_phong(const Worlds& worlds, const ShadingOptions& options) {
+  return std::make_unique<Phong>(worlds, options);
+}
+std::unique_ptr<Shading> make_normals(const Worlds&, const ShadingOptions&) {
+  return std::make_unique<Normals>();
+}
+
+}  // namespace welkin::scene

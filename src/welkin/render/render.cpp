@@ -1,0 +1,167 @@
+#include "welkin/render/render.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
+#include "welkin/camera/view.h"
+#include "welkin/render/camera_rays.h"
+
+namespace welkin::scene {
+namespace {
+
+/// Pixels of a tile's side.
+constexpr int kTile = 16;
+/// Surfaces behind one another that a ray goes through.
+constexpr int kMostLayers = 32;
+constexpr int kMostSamples = 64;
+
+/// One tile of a picture.
+class Tile {
+ public:
+  Tile(const TracedScene& scene, const CameraRays& camera, const Shading& shading, int samples)
+      : scene_(scene), camera_(camera), shading_(shading), samples_(samples) {}
+
+  /// R G B A of width × height pixels from (x0, y0) to `out`.
+  void make(int x0, int y0, int width, int height, ImageView<float> out);
+
+ private:
+  /// A ray on its way.
+  struct Way {
+    std::uint32_t ray;
+    float through;  ///< what is left of the light behind
+    float near;
+  };
+
+  void trace(std::vector<Way>& ways);
+
+  const TracedScene& scene_;
+  const CameraRays& camera_;
+  const Shading& shading_;
+  int samples_;
+  std::vector<RaySpread> rays_;
+  std::vector<bool> valid_;
+  std::vector<Surface> surfaces_;
+  std::vector<float> weights_;
+  std::vector<std::uint32_t> pixels_;  // of each surface
+  std::vector<Ray> traced_;
+  std::vector<Hit> hits_;
+};
+
+Vec3<float> to_float(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+void Tile::trace(std::vector<Way>& ways) {
+  traced_.clear();
+  for (const Way& way : ways) {
+    const RaySpread& ray = rays_[way.ray];
+    traced_.push_back({to_float(ray.origin), to_float(ray.direction), way.near});
+  }
+  hits_.resize(traced_.size());
+  scene_.closest(traced_, hits_, Coherence::close);
+  const auto per_pixel = static_cast<std::uint32_t>(samples_ * samples_);
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (!hits_[i]) continue;
+    Way way = ways[i];
+    Surface at = scene_.surface(rays_[way.ray], hits_[i]);
+    const float alpha = at.material.alpha;
+    way.near = hits_[i].distance + static_cast<float>(scene_.clearance(at.position));
+    if (alpha > 0) {
+      surfaces_.push_back(at);
+      weights_.push_back(alpha * way.through / static_cast<float>(per_pixel));
+      pixels_.push_back(way.ray / per_pixel);
+    }
+    way.through *= 1 - alpha;
+    if (way.through > 1e-4f) ways[left++] = way;
+  }
+  ways.resize(left);
+}
+
+void Tile::make(int x0, int y0, int width, int height, ImageView<float> out) {
+  std::vector<PicturePlace> places;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int j = 0; j < samples_; ++j)
+        for (int i = 0; i < samples_; ++i)
+          places.push_back(
+              {static_cast<float>(x0 + x) + (static_cast<float>(i) + 0.5f) / static_cast<float>(samples_),
+               static_cast<float>(y0 + y) + (static_cast<float>(j) + 0.5f) / static_cast<float>(samples_)});
+  camera_.rays(places, 1.0 / samples_, rays_, valid_);
+  std::vector<Way> ways;
+  for (std::uint32_t i = 0; i < rays_.size(); ++i)
+    if (valid_[i]) ways.push_back({i, 1, 0});
+  surfaces_.clear();
+  weights_.clear();
+  pixels_.clear();
+  for (int layer = 0; layer < kMostLayers && !ways.empty(); ++layer) trace(ways);
+  std::vector<Rgb> radiance(surfaces_.size());
+  if (!surfaces_.empty()) shading_.shade(surfaces_, radiance);
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const auto pixel = static_cast<int>(pixels_[i]);
+    float* to = out.at(x0 + pixel % width, y0 + pixel / width);
+    for (int c = 0; c < 3; ++c) to[c] += weights_[i] * radiance[i][static_cast<std::size_t>(c)];
+    to[3] += weights_[i];
+  }
+}
+
+}  // namespace
+
+Image render(const TracedScene& scene, const PlacedCamera& camera, const World& background,
+             const Shading& shading, const RenderOptions& options) {
+  require(options.samples >= 1 && options.samples <= kMostSamples,
+          "a pixel has 1 to 64 samples along each axis");
+  const MapFrame frame = frame_of(camera.camera);
+  const CameraRays rays(frame, camera.position);
+  const int width = frame.size.width, height = frame.size.height;
+  Image picture(width, height, 4);
+  const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
+  const Monitor monitor = part_of(options.monitor, 0, options.background ? 0.9 : 1);
+  parallel_for(
+      columns * rows,
+      [&](int index) {
+        const int x = index % columns * kTile, y = index / columns * kTile;
+        Tile(scene, rays, shading, options.samples)
+            .make(x, y, std::min(kTile, width - x), std::min(kTile, height - y), picture.view());
+      },
+      monitor);
+  if (!options.background) return picture;
+  ResampleOptions shown;
+  shown.borders = false;
+  shown.monitor = part_of(options.monitor, 0.9, 1);
+  const Map behind = view(background.map(), camera.camera, shown);
+  const int channels = behind.channels();
+  const ImageView<const float> seen = behind.level.chart(0);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      float* to = picture.at(x, y);
+      const float through = std::max(0.0f, 1 - to[3]);
+      const float* from = seen.at(x, y);
+      for (int c = 0; c < 3; ++c) to[c] += through * from[channels >= 3 ? c : 0];
+      const double u = (x + 0.5) / width, v = (y + 0.5) / height;
+      to[3] = frame.parameterization.valid(0, u, v) ? 1.0f : to[3];
+    }
+  }
+  return picture;
+}
+
+PlacedCamera camera_that_sees(const Scene& scene, const Camera& like) {
+  PlacedCamera placed{like, {0, 0, 0}};
+  const auto box = bounds_of(scene);
+  if (!box) return placed;
+  const Vec3d middle = 0.5 * (box->least + box->most), half = 0.5 * (box->most - box->least);
+  const MapFrame frame = frame_of(like);
+  const Vec3d ahead = transpose(frame.orientation) * Vec3d{0, 0, 1};
+  // The narrowest angle from the middle of the picture to its sides: those of a lens of over 120° see all.
+  double angle = kPi / 3;
+  for (const auto& [u, v] : {std::array{0.0, 0.5}, std::array{0.5, 0.0}}) {
+    if (!frame.parameterization.valid(0, u, v)) continue;
+    angle = std::min(angle, std::acos(std::clamp(frame.parameterization.to_sphere(0, u, v).z, -1.0, 1.0)));
+  }
+  placed.position = middle - (1.05 * length(half) / std::sin(std::max(angle, 1e-3))) * ahead;
+  return placed;
+}
+
+}  // namespace welkin::scene

@@ -1,0 +1,150 @@
+#include "welkin/render/world.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "welkin/base/error.h"
+#include "welkin/prefilter/bake.h"
+
+namespace welkin::scene {
+namespace {
+
+/// Roughness of the chain's levels: finer where narrow lobes change.
+constexpr std::array kRoughness{0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0};
+constexpr const char* kCurve = "0,0.05,0.1,0.2,0.3,0.45,0.6,0.8,1";
+
+/// How far along a ray from inside of it a sphere is met; none from outside.
+std::optional<double> sphere_distance(const Vec3d& from, const Vec3d& direction, double radius) {
+  const double b = dot(from, direction), c = dot(from, from) - radius * radius,
+               d2 = dot(direction, direction);
+  if (c > 0) return std::nullopt;
+  return (-b + std::sqrt(b * b - d2 * c)) / d2;
+}
+
+}  // namespace
+
+Vec3d seen_from(const Proxy& proxy, const Vec3d& position, const Vec3d& direction) {
+  const Vec3d from = position - proxy.centre;
+  switch (proxy.shape) {
+    case Proxy::Shape::far:
+      return direction;
+    case Proxy::Shape::sphere: {
+      const auto distance = sphere_distance(from, direction, proxy.radius);
+      return distance ? from + *distance * direction : direction;
+    }
+    case Proxy::Shape::ground: {
+      const auto distance = sphere_distance(from, direction, proxy.radius);
+      if (!distance) return direction;
+      Vec3d met = from + *distance * direction;
+      if (met.y < -proxy.height && direction.y < 0 && from.y > -proxy.height)
+        met = from + ((-proxy.height - from.y) / direction.y) * direction;
+      return met;
+    }
+    case Proxy::Shape::box: {
+      double distance = std::numeric_limits<double>::infinity();
+      const auto side = [&](double p, double d, double least, double most) {
+        if (p < least || p > most) distance = -1;
+        if (d > 0) distance = std::min(distance, (most - p) / d);
+        if (d < 0) distance = std::min(distance, (least - p) / d);
+      };
+      side(position.x, direction.x, proxy.least.x, proxy.most.x);
+      side(position.y, direction.y, proxy.least.y, proxy.most.y);
+      side(position.z, direction.z, proxy.least.z, proxy.most.z);
+      return distance >= 0 && std::isfinite(distance) ? from + distance * direction : direction;
+    }
+  }
+  return direction;
+}
+
+class World::State {
+ public:
+  State(Map given, const Proxy& where, const ConeSamplerOptions& how)
+      : map(std::make_shared<const Map>(std::move(given))), proxy(where), cone_options(how) {}
+
+  std::shared_ptr<const Map> map;
+  Proxy proxy;
+  ConeSamplerOptions cone_options;
+  std::mutex mutex;
+  std::optional<ConeSampler> cones;
+  std::optional<Sampler> bilinear, diffuse, rough;
+  std::map<double, Sampler> phong;
+
+  /// `made`, made by `make` if it isn't yet.
+  template <class T, class Make>
+  const T& once(std::optional<T>& made, const Make& make) {
+    const std::lock_guard lock(mutex);
+    // A thread that waits inside must not take up work that asks for the lock again.
+    if (!made) tbb::this_task_arena::isolate([&] { made.emplace(make()); });
+    return *made;
+  }
+};
+
+World::World(Map map, const Proxy& proxy, const ConeSamplerOptions& cones)
+    : state_(std::make_shared<State>(std::move(map), proxy, cones)) {
+  state_->map->check();
+}
+
+const Map& World::map() const {
+  return *state_->map;
+}
+
+const Proxy& World::proxy() const {
+  return state_->proxy;
+}
+
+const ConeSampler& World::cones() const {
+  return state_->once(state_->cones, [&] { return ConeSampler(state_->map, state_->cone_options); });
+}
+
+const Sampler& World::bilinear() const {
+  return state_->once(state_->bilinear, [&] { return Sampler(state_->map); });
+}
+
+const Sampler& World::diffuse() const {
+  return state_->once(state_->diffuse, [&] {
+    BakeOptions options;
+    options.lobe = lobe::AnyLobe::make("lambert");
+    options.size = ChartSize{64, 64};
+    return Sampler(bake(*state_->map, options));
+  });
+}
+
+const Sampler& World::rough() const {
+  return state_->once(state_->rough, [&] {
+    BakeOptions options;
+    options.curve = lobe::RoughnessCurve::from_name(kCurve);
+    // A face has a quarter of a lat-long's width, as its texels do along the equator.
+    const int side = std::clamp(static_cast<int>(std::sqrt(1.0 * state_->map->charts() *
+                                                           state_->map->width() * state_->map->height() / 6)),
+                                256, 1024);
+    options.size = ChartSize{side, side};
+    return Sampler(bake(*state_->map, options));
+  });
+}
+
+double World::level_of(double roughness) const {
+  roughness = std::clamp(roughness, 0.0, 1.0);
+  const auto above = std::upper_bound(kRoughness.begin(), kRoughness.end(), roughness);
+  if (above == kRoughness.end()) return static_cast<double>(kRoughness.size() - 1);
+  const auto k = static_cast<std::size_t>(above - kRoughness.begin());
+  return static_cast<double>(k - 1) + (roughness - kRoughness[k - 1]) / (kRoughness[k] - kRoughness[k - 1]);
+}
+
+const Sampler& World::phong(double exponent) const {
+  const std::lock_guard lock(state_->mutex);
+  auto& made = state_->phong;
+  if (const auto found = made.find(exponent); found != made.end()) return found->second;
+  BakeOptions options;
+  options.lobe = lobe::AnyLobe::make("phong,exponent=" + std::to_string(exponent));
+  options.chain = false;
+  options.size = ChartSize{256, 256};
+  tbb::this_task_arena::isolate([&] { made.emplace(exponent, bake(*state_->map, options)); });
+  return made.at(exponent);
+}
+
+}  // namespace welkin::scene
