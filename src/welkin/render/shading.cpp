@@ -17,14 +17,16 @@ struct Entry {
 constexpr Entry kShadings[] = {
     {"material", "glTF's materials: GGX, diffuse light, clear coat, refraction, by pre-filtered chains",
      make_material},
-    {"mirror", "a mirror's cone of the world, tinted by the base colour; --fresnel for glass and lacquer",
+    {"mirror",
+     "the world in the cone of the reflected pixel, tinted by the base colour, under Fresnel's factor where "
+     "one is asked for",
      make_mirror},
     {"refraction", "a clear body, rays bent once where they enter, and Fresnel's reflection",
      make_refraction},
     {"diffuse", "base colour times diffuse light along the normal", make_diffuse},
     {"globe", "dc·D + sc·S: diffuse light and a mirror's, by the material's metallic (Greene 1986)",
      make_globe},
-    {"phong", "Phong's lobe about the reflected direction; --exponent, --fresnel", make_phong},
+    {"phong", "Phong's lobe about the reflected direction", make_phong},
     {"normals", "(n + 1)/2, to check geometry", make_normals},
 };
 
