@@ -20,8 +20,13 @@ constexpr int kMostSamples = 64;
 /// One tile of a picture.
 class Tile {
  public:
-  Tile(const TracedScene& scene, const CameraRays& camera, const Shading& shading, int samples)
-      : scene_(scene), camera_(camera), shading_(shading), samples_(samples) {}
+  Tile(const TracedScene& scene, const CameraRays& camera, const Shading& shading,
+       const RenderOptions& options)
+      : scene_(scene),
+        camera_(camera),
+        shading_(shading),
+        reflection_(options.reflection),
+        samples_(options.samples) {}
 
   /// R G B A of width × height pixels from (x0, y0) to `out`.
   void make(int x0, int y0, int width, int height, ImageView<float> out);
@@ -39,6 +44,7 @@ class Tile {
   const TracedScene& scene_;
   const CameraRays& camera_;
   const Shading& shading_;
+  Reflection reflection_;
   int samples_;
   std::vector<RaySpread> rays_;
   std::vector<bool> valid_;
@@ -66,7 +72,7 @@ void Tile::trace(std::vector<Way>& ways) {
   for (std::size_t i = 0; i < ways.size(); ++i) {
     if (!hits_[i]) continue;
     Way way = ways[i];
-    Surface at = scene_.surface(rays_[way.ray], hits_[i]);
+    Surface at = scene_.surface(rays_[way.ray], hits_[i], reflection_);
     const float alpha = at.material.alpha;
     way.near = hits_[i].distance + static_cast<float>(scene_.clearance(at.position));
     if (alpha > 0) {
@@ -123,7 +129,7 @@ Image render(const TracedScene& scene, const PlacedCamera& camera, const World& 
       columns * rows,
       [&](int index) {
         const int x = index % columns * kTile, y = index / columns * kTile;
-        Tile(scene, rays, shading, options.samples)
+        Tile(scene, rays, shading, options)
             .make(x, y, std::min(kTile, width - x), std::min(kTile, height - y), picture.view());
       },
       monitor);

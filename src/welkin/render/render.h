@@ -22,9 +22,10 @@ struct PlacedCamera {
 
 /// How a picture is made.
 struct RenderOptions {
-  int samples = 4;         ///< rays of each pixel along each axis: outlines are antialiased by their square
-  bool background = true;  ///< show the world behind; false: nothing, and alpha 0
-  Monitor monitor = {};    ///< progress and cancelling
+  int samples = 4;  ///< rays of each pixel along each axis: outlines are antialiased by their square
+  Reflection reflection = Reflection::per_pixel;  ///< where reflected directions are found
+  bool background = true;                         ///< show the world behind; false: nothing, and alpha 0
+  Monitor monitor = {};                           ///< progress and cancelling
 };
 
 /// R G B A of a scene as a camera sees it, colours multiplied by alpha, which is the surfaces' coverage, or 1

@@ -27,6 +27,15 @@ constexpr Entry kShadings[] = {
     {"globe", "dc·D + sc·S: diffuse light and a mirror's, by the material's metallic (Greene 1986)",
      make_globe},
     {"phong", "Phong's lobe about the reflected direction", make_phong},
+    {"stack", "a BRDF pre-filtered for several angles of view", make_stack},
+    {"warped", "the same from a few directions of view, the nearest three warped to the present one",
+     make_warped},
+    {"chrome", "cheap chrome: colours by elevation, and highlights of the scene's lights", make_chrome},
+    {"matcap", "a picture of a ball, looked up by the normal", make_matcap},
+    {"window", "a sketch: the frame of a window", make_window},
+    {"cool-warm", "a sketch: from cold to warm colours (Gooch et al. 1998)", make_cool_warm},
+    {"outline", "a sketch: outlines of one width", make_outline},
+    {"hatching", "a sketch: strokes where surfaces turn away", make_hatching},
     {"normals", "(n + 1)/2, to check geometry", make_normals},
 };
 
@@ -44,6 +53,12 @@ std::unique_ptr<Shading> make_shading(std::string_view name, const Worlds& world
     names.emplace_back(entry.name);
   }
   throw Error(ErrorKind::bad_request, unknown_name("shading", name, names));
+}
+
+Matrix3 eye_of(const Matrix3& camera_rotation) {
+  // Cameras have right −X and ahead +Z.
+  const Matrix3 turned{{{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}}};
+  return turned * transpose(camera_rotation);
 }
 
 std::vector<ShadingName> shading_names() {

@@ -9,6 +9,7 @@
 
 #include "welkin/base/export.h"
 #include "welkin/render/surface.h"
+#include "welkin/render/view_maps.h"
 #include "welkin/render/world.h"
 
 /// @file
@@ -40,10 +41,23 @@ enum class Fresnel {
 struct ShadingOptions {
   Fresnel fresnel = Fresnel::none;  ///< of `mirror` and `phong`
   double eta = 1.5;                 ///< index of refraction of `mirror`, `phong`, `refraction`
-  double exponent = 50;             ///< of `phong`
+  double exponent = 50;             ///< of `phong`, and of the highlights of `chrome`
   bool quadrilateral = false;       ///< cones by their four corners rather than as ellipses
   bool no_spread = false;           ///< directions alone: no cones (for comparison)
+  std::string brdf = "ggx";         ///< of `stack` and `warped`, as brdf::AnyBrdf::make takes it
+  int views = 20;                   ///< of `warped`: directions that are baked, 3 … 1000
+  std::vector<std::shared_ptr<const ViewMap>> view_maps = {};  ///< of `warped`: photographs, in their place
+  /// Of `matcap` the picture of a ball, square, its disc filling it; of `chrome` colours by elevation, the
+  /// zenith's in the top row.
+  std::shared_ptr<const Image> picture = {};
+  /// Of `matcap`, from the world to the eye: x right, y up, z towards the viewer (eye_of).
+  Matrix3 to_eye = {};
+  bool reflected_coordinates = false;   ///< of `matcap`: by the reflected direction, not the normal
+  std::vector<PointLight> lights = {};  ///< whose highlights `chrome` shows
 };
+
+/// The eye's frame of a camera of this rotation.
+WELKIN_API Matrix3 eye_of(const Matrix3& camera_rotation);
 
 /// A way to shade surfaces. Never changes after it is made; safe from many threads.
 class WELKIN_API Shading {

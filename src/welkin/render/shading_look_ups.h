@@ -18,6 +18,14 @@ std::unique_ptr<Shading> make_refraction(const Worlds& worlds, const ShadingOpti
 std::unique_ptr<Shading> make_diffuse(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_globe(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_phong(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_stack(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_warped(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_chrome(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_matcap(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_window(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_cool_warm(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_outline(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_hatching(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_normals(const Worlds& worlds, const ShadingOptions& options);
 
 /// Calls `use(world, indices)` once for each world that some of the surfaces have.

@@ -52,6 +52,16 @@ int wrapped(int i, int size, Wrap how) {
 
 Texture::Texture(const Picture& picture) : across_(picture.across), down_(picture.down) {
   levels_.push_back(picture.image.view());
+  make_levels();
+}
+
+Texture::Texture(std::vector<Image> levels)
+    : across_(Wrap::clamp), down_(Wrap::clamp), smaller_(std::move(levels)) {
+  for (const Image& level : smaller_) levels_.push_back(level.view());
+  make_levels();
+}
+
+void Texture::make_levels() {
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     smaller_.push_back(halved(levels_.back()));
     levels_.push_back(smaller_.back().view());

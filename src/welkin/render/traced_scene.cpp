@@ -256,7 +256,7 @@ double TracedScene::clearance(const Vec3d& position) const {
   return 1e-6 * state_->largest + 4e-6 * size;
 }
 
-Surface TracedScene::surface(const RaySpread& ray, const Hit& hit) const {
+Surface TracedScene::surface(const RaySpread& ray, const Hit& hit, Reflection reflection) const {
   const WorldMesh& mesh = state_->meshes[hit.instance];
   const auto& triangle = mesh.triangles[hit.triangle];
   const Vec3d p0 = to_double(mesh.positions[triangle[0]]);
@@ -326,6 +326,16 @@ Surface TracedScene::surface(const RaySpread& ray, const Hit& hit) const {
       at.normal = side * n;
       at.normal_change = {change(right), change(down)};
     }
+  }
+  if (reflection == Reflection::per_vertex && !mesh.normals.empty()) {
+    Vec3d sum{0, 0, 0};
+    const double weight[] = {1 - b1 - b2, b1, b2};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d n = side * to_double(mesh.normals[triangle[k]]);
+      const Vec3d v = unit_or(ray.origin - to_double(mesh.positions[triangle[k]]), at.view);
+      sum = sum + weight[k] * (2 * dot(n, v) * n - v);
+    }
+    at.normal = unit_or(unit_or(sum, at.normal) + at.view, at.normal);
   }
 
   const double det = uv_e1[0] * uv_e2[1] - uv_e1[1] * uv_e2[0];

@@ -40,6 +40,13 @@ enum class Coherence {
   close,  ///< side by side, as those of neighbouring pixels
 };
 
+/// Where the reflected direction is found.
+enum class Reflection {
+  per_pixel,   ///< by the interpolated normal
+  per_vertex,  ///< at the triangle's corners, and interpolated, not normalised, between them, as vertex
+               ///< shaders did (the normal becomes the one that reflects so)
+};
+
 /// A scene's triangles, in the world, and the pictures that they wear, ready to be traced (Embree). Both
 /// sides of a triangle are met.
 ///
@@ -61,7 +68,7 @@ class WELKIN_API TracedScene {
   bool occluded(const Ray& ray) const;
 
   /// What a ray has met: the place, its normals and its material there, and how they change between pixels.
-  Surface surface(const RaySpread& ray, const Hit& hit) const;
+  Surface surface(const RaySpread& ray, const Hit& hit, Reflection reflection = Reflection::per_pixel) const;
 
   /// A distance by which a ray that leaves a surface at `position` starts off it, so that it doesn't meet it.
   double clearance(const Vec3d& position) const;
