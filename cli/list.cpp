@@ -10,6 +10,7 @@
 #include "welkin/lighting_set/engine.h"
 #include "welkin/lobe/lobe.h"
 #include "welkin/lobe/roughness_curve.h"
+#include "welkin/scene/built_in.h"
 #include "welkin/sphere/convention.h"
 #include "welkin/synth/synth.h"
 
@@ -110,8 +111,13 @@ const std::map<std::string, std::function<void()>>& lists() {
          fmt::print("{:<23} {}\n", "exact", "bake: harmonics and near sums, to a tolerance");
          fmt::print("{:<23} {}\n", "paraboloid-convolution", "bake: two planar filters; approximate");
        }},
-      {"maps", [] {
+      {"maps",
+       [] {
          for (const auto& name : synth::names()) fmt::print("{:<12} {}\n", name, synth::description(name));
+       }},
+      {"scenes", [] {
+         for (const auto& name : scene::built_in_names())
+           fmt::print("{:<12} {}\n", name, scene::built_in_description(name));
        }}};
   return all;
 }
@@ -127,7 +133,7 @@ void add_list(CLI::App& app) {
       ->add_option(
           "WHAT", *what,
           "brdfs, conventions, curves, engines, filters, formats, layouts, lobes, luts, maps, methods, "
-          "parameterizations, parameters")
+          "parameterizations, parameters, scenes")
       ->capture_default_str();
   command->callback([what, names] {
     const auto found = lists().find(*what);

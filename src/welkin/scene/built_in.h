@@ -19,7 +19,9 @@ WELKIN_API std::string built_in_description(std::string_view name);
 
 /// What a built-in scene can be asked for.
 struct BuiltInOptions {
-  /// Triangles of a whole object: about so many, 64 … 10⁷; 0: enough for smooth outlines.
+  /// Triangles of all that is seen: about so many, 64 … 10⁷, where the shapes can be made of so few (the
+  /// landscape has 75,000, the others some hundreds, the creature some thousands); 0: enough for smooth
+  /// outlines.
   int triangles = 0;
 };
 

@@ -2,34 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "welkin/scene/scene.h"
+#include "welkin/scene/shape_cases.h"
 
 namespace welkin::scene {
 namespace {
-
-/// Six times the volume that a closed mesh encloses: positive where triangles face outwards.
-double volume_of(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const auto at = [&](int i) {
-      const Vec3<float>& p = mesh.positions[t[static_cast<std::size_t>(i)]];
-      return Vec3d{p.x, p.y, p.z};
-    };
-    sum += dot(at(0), cross(at(1), at(2)));
-  }
-  return sum / 6;
-}
-
-/// The least cosine between a triangle's own normal and its vertices'.
-double worst_agreement(const Mesh& mesh) {
-  double worst = 1;
-  for (const auto& t : mesh.triangles) {
-    const auto& p = mesh.positions;
-    const Vec3<float> flat = normalize(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
-    for (const std::uint32_t i : t) worst = std::min<double>(worst, dot(flat, mesh.normals[i]));
-  }
-  return worst;
-}
 
 // A polyhedron inside a curved body lacks about (π/n)² of its volume.
 TEST(Shapes, TrianglesFaceOutwardsAndEncloseTheBody) {
@@ -43,6 +22,49 @@ TEST(Shapes, NormalsAgreeWithTriangles) {
   EXPECT_GT(worst_agreement(torus_mesh()), 0.999);
   EXPECT_GT(worst_agreement(box_mesh()), 0.999999);
   EXPECT_GT(worst_agreement(square_mesh(3)), 0.999999);
+}
+
+// A rod of even radius: a cylinder and a ball. Bent, its volume stays (Pappus), as the bend is even.
+TEST(Shapes, TubesAndLathesEncloseTheirBodies) {
+  const double r = 0.2, straight = kPi * r * r * 2 + 4 * kPi / 3 * r * r * r;
+  const Mesh rod = lathe_mesh(rod_profile(2, r, r), 96, 192);
+  EXPECT_NEAR(volume_of(rod), straight, straight * 2e-3);
+  EXPECT_TRUE(is_closed(rod));
+  EXPECT_GT(worst_agreement(rod), 0.99);
+  const auto bow = [](double t) { return Vec3d{std::cos(2 * t), std::sin(2 * t), 0.3}; };
+  EXPECT_NEAR(curve_length(bow), 2, 2e-5);
+  const Mesh tube = tube_mesh(bow, rod_profile(2, r, r), 96, 192);
+  EXPECT_NEAR(volume_of(tube), straight, straight * 2e-3);
+  EXPECT_TRUE(is_closed(tube));
+  EXPECT_GT(worst_agreement(tube), 0.99);
+  const Mesh cone = tube_mesh(bow, rod_profile(2, 0.3, 0.1), 96, 192);
+  EXPECT_TRUE(is_closed(cone));
+  EXPECT_GT(worst_agreement(cone), 0.98);
+}
+
+TEST(Shapes, CurvesGoThroughTheirPoints) {
+  const std::vector<Vec3d> points{{0, 0, 0}, {1, 2, 0}, {3, 1, -1}, {4, 4, 2}};
+  const auto curve = curve_through(points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_NEAR(length(curve(static_cast<double>(i) / 3) - points[i]), 0, 1e-12);
+  EXPECT_ANY_THROW(curve_through({{0, 0, 0}}));
+}
+
+// Vertices lie on the surface; between them it bulges by less than h²/8r for cells of side h.
+TEST(Shapes, ImplicitSurfacesAreWhereTheFunctionIsZero) {
+  const Vec3d middle{0.3, -0.2, 0.1};
+  const auto ball = [&](const Vec3d& p) { return length(p - middle) - 0.8; };
+  const Mesh mesh = implicit_mesh(ball, {{-1, -1, -1}, {1.5, 1.3, 1.7}}, 50);
+  EXPECT_TRUE(is_closed(mesh));
+  const double volume = 4 * kPi / 3 * 0.512;
+  EXPECT_NEAR(volume_of(mesh), volume, volume * 3e-3);
+  EXPECT_GT(worst_agreement(mesh), 0.99);
+  for (const Vec3<float>& p : mesh.positions) ASSERT_NEAR(ball({p.x, p.y, p.z}), 0, 1e-6);
+  // A surface that leaves its box, or a function that runs ahead of position, is refused.
+  EXPECT_ANY_THROW(implicit_mesh(ball, {{-0.4, -1, -1}, {2, 1, 1}}, 50));
+  EXPECT_ANY_THROW(implicit_mesh(ball, {{-1, -1, -1}, {0.5, 1, 1}}, 50));
+  const auto hasty = [&](const Vec3d& p) { return 8 * ball(p); };
+  EXPECT_ANY_THROW(implicit_mesh(hasty, {{-1, -1, -1}, {1.5, 1.3, 1.7}}, 50));
 }
 
 TEST(SceneCheck, TellsWhatDoesNotFit) {
