@@ -38,6 +38,7 @@ void add_info(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_bake(CLI::App& app);
 void add_view(CLI::App& app);
+void add_render(CLI::App& app);
 void add_sample(CLI::App& app);
 void add_importance(CLI::App& app);
 void add_diff(CLI::App& app);

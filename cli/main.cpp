@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   cli::add_convert(app);
   cli::add_bake(app);
   cli::add_view(app);
+  cli::add_render(app);
   cli::add_sample(app);
   cli::add_importance(app);
   cli::add_diff(app);

@@ -25,6 +25,7 @@
 #include "welkin/brdf/fresnel.h"
 #include "welkin/brdf/lobe_sum.h"
 #include "welkin/brdf/microfacet.h"
+#include "welkin/brdf/roughness_mips.h"
 #include "welkin/brdf/table_axis.h"
 #include "welkin/brdf/table_text.h"
 #include "welkin/brdf/view_lobe.h"

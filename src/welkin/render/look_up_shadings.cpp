@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "welkin/brdf/microfacet.h"
+#include "welkin/lobe/lobe.h"
 #include "welkin/render/shading_look_ups.h"
 
 namespace welkin::scene {
@@ -54,6 +57,43 @@ class Mirror : public Shading {
 
   Worlds worlds_;
   ShadingOptions options_;
+};
+
+/// `glossy`: the world over the pixel's reflected cone, widened by the lobe of the material's roughness, with
+/// no pre-filtered chain: whatever the filter makes of it.
+class Glossy : public Shading {
+ public:
+  Glossy(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
+    worlds_.whole.cones();
+    for (const World& world : worlds_.own) world.cones();
+    const lobe::AnyLobe ggx = lobe::AnyLobe::make("ggx");
+    for (std::size_t i = 1; i < sigma_.size(); ++i)
+      sigma_[i] = lobe_sigma_of(ggx.with_roughness(static_cast<double>(i) / (kSteps - 1)));
+  }
+
+  void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
+    std::vector<SurfaceCone> cones;
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+      const double bumps = normal_spread(surfaces[i]), lobe = sigma_of(surfaces[i].material.roughness);
+      cones.push_back({i, reflected(surfaces[i]), std::sqrt(bumps * bumps + lobe * lobe)});
+    }
+    look_up_cones(worlds_, surfaces, cones, options_, radiance);
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      radiance[i] = surfaces[i].material.base_color * radiance[i];
+  }
+
+ private:
+  static constexpr int kSteps = 65;
+
+  double sigma_of(double roughness) const {
+    const double x = std::clamp(roughness, 0.0, 1.0) * (kSteps - 1);
+    const auto i = std::min(static_cast<std::size_t>(x), static_cast<std::size_t>(kSteps - 2));
+    return sigma_[i] + (x - static_cast<double>(i)) * (sigma_[i + 1] - sigma_[i]);
+  }
+
+  Worlds worlds_;
+  ShadingOptions options_;
+  std::array<double, kSteps> sigma_{};  // by roughness
 };
 
 /// `refraction`: F of the reflected cone, the rest of the one bent once.
@@ -183,6 +223,9 @@ class Normals : public Shading {
 
 std::unique_ptr<Shading> make_mirror(const Worlds& worlds, const ShadingOptions& options) {
   return std::make_unique<Mirror>(worlds, options);
+}
+std::unique_ptr<Shading> make_glossy(const Worlds& worlds, const ShadingOptions& options) {
+  return std::make_unique<Glossy>(worlds, options);
 }
 std::unique_ptr<Shading> make_refraction(const Worlds& worlds, const ShadingOptions& options) {
   return std::make_unique<Refraction>(worlds, options);

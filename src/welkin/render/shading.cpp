@@ -21,6 +21,9 @@ constexpr Entry kShadings[] = {
      "the world in the cone of the reflected pixel, tinted by the base colour, under Fresnel's factor where "
      "one is asked for",
      make_mirror},
+    {"glossy",
+     "the same over a cone as wide as GGX's lobe of the material's roughness, without a pre-filtered chain",
+     make_glossy},
     {"refraction", "a clear body, rays bent once where they enter, and Fresnel's reflection",
      make_refraction},
     {"diffuse", "base colour times diffuse light along the normal", make_diffuse},

@@ -14,6 +14,7 @@ using MakeShading = std::unique_ptr<Shading> (*)(const Worlds& worlds, const Sha
 
 std::unique_ptr<Shading> make_material(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_mirror(const Worlds& worlds, const ShadingOptions& options);
+std::unique_ptr<Shading> make_glossy(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_refraction(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_diffuse(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_globe(const Worlds& worlds, const ShadingOptions& options);

@@ -18,6 +18,16 @@ namespace {
 constexpr std::array kRoughness{0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0};
 constexpr const char* kCurve = "0,0.05,0.1,0.2,0.3,0.45,0.6,0.8,1";
 
+ConeSamplerOptions usual_cones(const Map& map) {
+  constexpr std::int64_t kMostTexels = 1 << 21;
+  const std::int64_t texels = std::int64_t{map.charts()} * map.width() * map.height();
+  ConeSamplerOptions options;
+  options.filter = texels <= kMostTexels && is_usable(ConeFilter::gaussian, map.parameterization)
+                       ? ConeFilter::gaussian
+                       : ConeFilter::probes;
+  return options;
+}
+
 /// How far along a ray from inside of it a sphere is met; none from outside.
 std::optional<double> sphere_distance(const Vec3d& from, const Vec3d& direction, double radius) {
   const double b = dot(from, direction), c = dot(from, from) - radius * radius,
@@ -84,9 +94,10 @@ class World::State {
   }
 };
 
-World::World(Map map, const Proxy& proxy, const ConeSamplerOptions& cones)
-    : state_(std::make_shared<State>(std::move(map), proxy, cones)) {
-  state_->map->check();
+World::World(Map map, const Proxy& proxy, const std::optional<ConeSamplerOptions>& cones) {
+  map.check();
+  const ConeSamplerOptions how = cones ? *cones : usual_cones(map);
+  state_ = std::make_shared<State>(std::move(map), proxy, how);
 }
 
 const Map& World::map() const {

@@ -43,8 +43,10 @@ WELKIN_API Vec3d seen_from(const Proxy& proxy, const Vec3d& position, const Vec3
 /// chains over roughness. Cheap to copy; safe from many threads.
 class WELKIN_API World {
  public:
-  /// The map's borders are filled. Throws Error (bad_value) where texels are not finite.
-  explicit World(Map map, const Proxy& proxy = {}, const ConeSamplerOptions& cones = {});
+  /// The map's borders are filled. Without options cones are looked up by `gaussian` in maps of the whole
+  /// sphere of up to two million texels, by `probes` in others, whose levels take less memory and time to
+  /// make. Throws Error (bad_value) where texels are not finite.
+  explicit World(Map map, const Proxy& proxy = {}, const std::optional<ConeSamplerOptions>& cones = {});
 
   const Map& map() const;            ///< what was given
   const Proxy& proxy() const;        ///< where it lies

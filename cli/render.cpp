@@ -1,0 +1,141 @@
+#include "welkin/render/render.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "command.h"
+#include "progress.h"
+#include "render_worlds.h"
+#include "scene_flags.h"
+#include "welkin/io/image_file.h"
+
+namespace welkin::cli {
+namespace {
+
+struct Render {
+  std::string scene, out, format, shading = "material", fresnel = "none", brdf = "ggx", picture;
+  int samples = 4, views = 20;
+  bool no_background = false, quadrilateral = false, per_vertex = false, reflected = false;
+  double eta = 1.5, exponent = 50;
+  WriteFlags write;
+  SceneFlags placed;
+  WorldFlags worlds;
+
+  void run() const;
+  scene::ShadingOptions shading_options() const;
+};
+
+/// The file's picture, as many of R G B A as it has.
+std::shared_ptr<const Image> read_picture(const std::string& file) {
+  const std::unique_ptr<io::Reader> reader = io::open(std::filesystem::path(file));
+  const io::PartInfo& part = reader->info().parts.at(0);
+  std::vector<int> channels;
+  for (int c = 0; c < static_cast<int>(std::min<std::size_t>(part.channels.size(), 3)); ++c)
+    channels.push_back(c);
+  auto image = std::make_shared<Image>(part.width, part.height, static_cast<int>(channels.size()));
+  reader->read(0, channels, image->view());
+  return image;
+}
+
+scene::ShadingOptions Render::shading_options() const {
+  scene::ShadingOptions options;
+  options.eta = eta;
+  options.exponent = exponent;
+  options.quadrilateral = quadrilateral;
+  options.brdf = brdf;
+  options.views = views;
+  options.reflected_coordinates = reflected;
+  const std::vector<std::string> names{"none", "add", "share"};
+  const auto found = std::find(names.begin(), names.end(), fresnel);
+  if (found == names.end()) throw UsageError("--fresnel: " + unknown_name("combination", fresnel, names));
+  options.fresnel = static_cast<scene::Fresnel>(found - names.begin());
+  if (!picture.empty()) options.picture = read_picture(picture);
+  return options;
+}
+
+void Render::run() const {
+  check_extension(out);
+  worlds.read.parse();
+  scene::ShadingOptions options = shading_options();
+  const std::vector<std::string> needless{"matcap",   "window",  "cool-warm", "outline",
+                                          "hatching", "normals", "chrome"};
+  const bool lit = std::find(needless.begin(), needless.end(), shading) == needless.end();
+  if (lit && worlds.env.empty())
+    throw UsageError("--env: a map of the world is needed to shade with " + shading);
+  scene::Scene loaded = placed.load(scene);
+  const scene::PlacedCamera camera = placed.camera_of(loaded);
+  options.to_eye = scene::eye_of(camera.camera.rotation);
+  options.lights = loaded.lights;
+  const scene::Worlds around = worlds.load(loaded);
+  const scene::TracedScene traced(std::move(loaded));
+  const auto shade = parse_option("--shading", [&] { return make_shading(shading, around, options); });
+  const bool background = !no_background && !worlds.env.empty();
+  const Image made =
+      scene::render(traced, camera, around.whole, *shade,
+                    {.samples = samples,
+                     .reflection = per_vertex ? scene::Reflection::per_vertex : scene::Reflection::per_pixel,
+                     .background = background,
+                     .monitor = progress_monitor("rendering " + out)});
+  write_picture(out, made, background, write);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  auto render = std::make_shared<Render>();
+  CLI::App* command =
+      app.add_subcommand("render", "Make a picture of a scene whose surfaces reflect the world of a map");
+  command
+      ->add_option("SCENE", render->scene, "glTF or OBJ to read, or a built-in scene: `welkin list scenes`")
+      ->required();
+  command->add_option("OUT", render->out, "Picture to write")->required();
+  std::string names;
+  for (const scene::ShadingName& each : scene::shading_names())
+    names += (names.empty() ? "" : ", ") + each.name;
+  command->add_option("--shading", render->shading, "How surfaces are shaded: " + names)
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--fresnel", render->fresnel,
+          "Of mirror and phong: none, add (F·Lm + Ld), share (F·Lm + (1 − F)·Ld), with diffuse light Ld")
+      ->capture_default_str();
+  command->add_option("--eta", render->eta, "Index of refraction of mirror, phong and refraction")
+      ->check(finite_number())
+      ->capture_default_str();
+  command->add_option("--exponent", render->exponent, "Of phong, and of the highlights of chrome")
+      ->check(finite_number())
+      ->capture_default_str();
+  command
+      ->add_option("--brdf", render->brdf,
+                   "Of stack and warped: ggx, ward, table,file=PATH… (`bake --views`)")
+      ->capture_default_str();
+  command->add_option("--views", render->views, "Of warped: from how many directions the ball is baked")
+      ->check(CLI::Range(3, 1000))
+      ->capture_default_str();
+  command->add_option("--picture", render->picture,
+                      "Of matcap: a square picture of a ball. Of chrome: its colours, the zenith on top");
+  command->add_flag("--reflected", render->reflected,
+                    "Of matcap: look up by the reflected direction, not the normal");
+  command->add_flag("--quadrilateral", render->quadrilateral,
+                    "Take cones by their four corners, not as ellipses");
+  command->add_flag("--per-vertex", render->per_vertex,
+                    "Find reflected directions at corners of triangles, and interpolate them between");
+  command->add_option("--samples", render->samples, "Rays along each axis of a pixel")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_flag("--no-background", render->no_background,
+                    "Leave the world out: alpha is the scene's coverage");
+  render->placed.add(*command);
+  render->worlds.add(*command);
+  render->write.add(*command);
+  add_format(*command, render->format);
+  command->callback([render] {
+    render->out = output_path(render->out, render->format);
+    if (!render->worlds.env.empty()) render->worlds.env = input_path(render->worlds.env);
+    render->run();
+  });
+}
+
+}  // namespace welkin::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "welkin/render/render.h"
+#include "welkin/scene/scene.h"
+
+/// What commands on scenes share.
+namespace welkin::cli {
+
+/// Options of a scene and of the camera that looks at it.
+struct SceneFlags {
+  std::string size = "960x540", lens = "perspective", look, position, camera, material;
+  std::optional<double> fov;
+  int triangles = 0;
+
+  /// All of them.
+  void add(CLI::App& command);
+  /// Of the scene alone.
+  void add_scene(CLI::App& command);
+  /// A file's scene, or a built-in one; `--material` applied, warnings told. Throws UsageError.
+  scene::Scene load(const std::string& name) const;
+  /// The scene's camera, unless options say otherwise. Throws UsageError.
+  scene::PlacedCamera camera_of(const scene::Scene& scene) const;
+};
+
+/// `x,y,z`. Throws UsageError, naming the option.
+Vec3d parse_point(std::string_view option, const std::string& text);
+
+/// Writes R G B A; only R G B where it is opaque or the format has no alpha.
+void write_picture(const std::string& file, const Image& picture, bool opaque, const WriteFlags& flags);
+
+}  // namespace welkin::cli
