@@ -65,7 +65,7 @@ Camera ViewRequest::camera_at(double frame) const {
 ViewRequest::Worlds ViewRequest::read_worlds(const std::string& file, bool warn) const {
   ReadFlags flags = *read;
   flags.warn = warn;
-  if (!pair) return {flags.open(file).read(), std::nullopt};
+  if (!pair) return {.left = flags.open(file).read()};
   flags.eye = "left";
   MapReader reader = flags.open(file);
   if (reader.info().stereo != io::Stereo::top_bottom && reader.info().stereo != io::Stereo::left_right)
@@ -73,7 +73,7 @@ ViewRequest::Worlds ViewRequest::read_worlds(const std::string& file, bool warn)
   Map left = reader.read();
   flags.eye = "right";
   flags.warn = false;
-  return {std::move(left), flags.open(file).read()};
+  return {.left = std::move(left), .right = flags.open(file).read()};
 }
 
 ViewRequest::Worlds ViewRequest::fit(Worlds worlds, const std::string& file, bool told) const {
@@ -97,8 +97,10 @@ ViewRequest::Picture ViewRequest::picture_of(const Worlds& worlds, int frame) co
     picture.both = view_pair(worlds.left, *worlds.right, camera_at(frame), *pair, shown);
   } else if (shutter) {
     const Shutter open{frame + shutter->open, frame + shutter->close};
-    picture.map = blurred_view(worlds.left, [&](double time) { return camera_at(time); }, open,
-                               {.samples = samples, .monitor = shown.monitor});
+    const auto at = [&](double time) { return camera_at(time); };
+    const MotionBlurOptions how{.samples = samples, .monitor = shown.monitor};
+    picture.map =
+        worlds.blurred ? worlds.blurred->view(at, open, how) : blurred_view(worlds.left, at, open, how);
   } else {
     picture.map = view(worlds.left, camera_at(frame), shown);
   }

@@ -43,7 +43,8 @@ struct ViewRequest {
   /// The world of one eye or of both.
   struct Worlds {
     Map left;
-    std::optional<Map> right;
+    std::optional<Map> right = {};
+    std::optional<BlurredWorld> blurred = {};  ///< of `left`, where many frames are made of it
   };
   /// What is seen, as a map, or for two eyes as a picture.
   struct Picture {

@@ -67,8 +67,10 @@ class ViewRequest::Sequence {
       find_inputs();
     }
     if (!request_.writes_stream()) prepare_files();
-    if (!world_stream_ && !inputs_)
+    if (!world_stream_ && !inputs_) {
       still_ = request_.fit(request_.read_worlds(request_.in, true), example_file(), false);
+      if (request_.shutter) still_->blurred.emplace(still_->left);
+    }
   }
 
   /// A name whose format is that of all files; of a stream none.
@@ -162,7 +164,7 @@ class ViewRequest::Sequence {
     }
     if (still_) return write(*still_, file, note, frame);
     const bool first = frame.number == (list_.empty() ? 0 : list_.front());
-    Worlds worlds = world_stream_ ? Worlds{world_stream_->world(frame.taken), std::nullopt}
+    Worlds worlds = world_stream_ ? Worlds{.left = world_stream_->world(frame.taken)}
                                   : request_.read_worlds(inputs_->file(frame.number).string(), first);
     frame.taken = {};
     write(request_.fit(std::move(worlds), file, !first), file, note, frame);

@@ -1,8 +1,11 @@
 #include "welkin/camera/motion_blur.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <vector>
 
 #include "welkin/base/error.h"
@@ -171,8 +174,13 @@ double swept_pixels(const std::function<Camera(double frame)>& camera, const Shu
   return farthest;
 }
 
-Map blurred_view(const Map& world, const std::function<Camera(double frame)>& camera, const Shutter& shutter,
-                 const MotionBlurOptions& options) {
+namespace {
+
+/// A world's look-ups down to a level.
+using SamplerFor = std::function<Sampler(int levels)>;
+
+Map blurred(const Map& world, const SamplerFor& sampler_for, const CameraAt& camera, const Shutter& shutter,
+            const MotionBlurOptions& options) {
   check(shutter);
   require(!options.samples || (*options.samples >= 1 && *options.samples <= kMostAsked),
           "motion is blurred by 1 to 65536 samples");
@@ -202,9 +210,7 @@ Map blurred_view(const Map& world, const std::function<Camera(double frame)>& ca
     }
   }
   const int most = levels_below(world.width(), world.height());
-  SamplerOptions look_ups;
-  look_ups.levels = std::min(static_cast<int>(std::ceil(coarsest)), most) + 1;
-  const Sampler sampler = Sampler::borrow(world, look_ups);
+  const Sampler sampler = sampler_for(std::min(static_cast<int>(std::ceil(coarsest)), most) + 1);
   parallel_for(
       size.height,
       [&](int y) {
@@ -220,6 +226,44 @@ Map blurred_view(const Map& world, const std::function<Camera(double frame)>& ca
       },
       options.monitor);
   return picture;
+}
+
+}  // namespace
+
+Map blurred_view(const Map& world, const std::function<Camera(double frame)>& camera, const Shutter& shutter,
+                 const MotionBlurOptions& options) {
+  const auto sampler_for = [&](int levels) { return Sampler::borrow(world, {.levels = levels}); };
+  return blurred(world, sampler_for, camera, shutter, options);
+}
+
+class BlurredWorld::State {
+ public:
+  explicit State(const Map& world) : world_(world), finest_(Sampler::borrow(world)) {}
+
+  const Map& world() const { return world_; }
+
+  Sampler sampler_for(int levels) const {
+    if (levels <= 1) return finest_;
+    const std::scoped_lock lock(mutex_);
+    // A thread that waits for the pyramid's loops takes no other frame's work, which would wait for itself.
+    if (!pyramid_)
+      tbb::this_task_arena::isolate([this] { pyramid_ = Sampler::borrow(world_, {.levels = 0}); });
+    return *pyramid_;
+  }
+
+ private:
+  const Map& world_;
+  const Sampler finest_;
+  mutable std::mutex mutex_;
+  mutable std::optional<Sampler> pyramid_;
+};
+
+BlurredWorld::BlurredWorld(const Map& world) : state_(std::make_shared<State>(world)) {}
+
+Map BlurredWorld::view(const std::function<Camera(double frame)>& camera, const Shutter& shutter,
+                       const MotionBlurOptions& options) const {
+  const auto sampler_for = [this](int levels) { return state_->sampler_for(levels); };
+  return blurred(state_->world(), sampler_for, camera, shutter, options);
 }
 
 }  // namespace welkin

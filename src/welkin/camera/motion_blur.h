@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "welkin/base/export.h"
@@ -38,6 +39,24 @@ struct MotionBlurOptions {
 /// samples below 1 or above 65536; a camera whose size changes. As frame_of and Sampler do; Cancelled.
 WELKIN_API Map blurred_view(const Map& world, const std::function<Camera(double frame)>& camera,
                             const Shutter& shutter, const MotionBlurOptions& options = {});
+
+/// A world that blurred pictures are taken of, one after another: its pyramid is made once, when a picture
+/// is first coarse enough to read it, and kept. Everything else is immutable: `view` from many threads at
+/// once. Copies share the pyramid.
+class WELKIN_API BlurredWorld {
+ public:
+  /// Of the caller's world, which must outlive this and its copies, and not change meanwhile.
+  explicit BlurredWorld(const Map& world);
+  explicit BlurredWorld(const Map&& world) = delete;
+
+  /// The same as blurred_view of this world, bit for bit.
+  Map view(const std::function<Camera(double frame)>& camera, const Shutter& shutter,
+           const MotionBlurOptions& options = {}) const;
+
+ private:
+  class State;
+  std::shared_ptr<const State> state_;
+};
 
 /// How far the picture moves at its fastest while the shutter is open, in pixels.
 WELKIN_API double swept_pixels(const std::function<Camera(double frame)>& camera, const Shutter& shutter);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "welkin/base/error.h"
+#include "welkin/base/parallel.h"
 #include "welkin/camera/camera_cases.h"
 #include "welkin/camera/camera_path.h"
 #include "welkin/camera/view.h"
@@ -80,6 +81,32 @@ TEST(MotionBlur, MinifiedTheSame) {
   const Shutter shutter{0, 1};
   EXPECT_LT(relative_rmse(blurred_view(world, moving, shutter), mean_of_views(world, moving, shutter, 64)),
             0.01);
+}
+
+/// Values of a picture, row by row.
+std::vector<float> values_of(const Map& picture) {
+  std::vector<float> values;
+  for (int y = 0; y < picture.height(); ++y) {
+    const float* row = picture.level.chart(0).row(y);
+    values.insert(values.end(), row, row + picture.width() * picture.channels());
+  }
+  return values;
+}
+
+/// Frames that read the world itself, and others that read levels of its pyramid, from several threads.
+TEST(MotionBlur, OfAKeptWorldIsTheSame) {
+  const Map world = patterned_world("latlong", 1024);
+  const BlurredWorld kept(world);
+  const auto zooming = [](double frame) {
+    Camera camera = moving(frame);
+    camera.fov = frame < 2 ? 10 : 120;
+    return camera;
+  };
+  parallel_for(8, [&](int frame) {
+    const Shutter shutter{1.0 * frame, frame + 0.5};
+    EXPECT_EQ(values_of(kept.view(zooming, shutter)), values_of(blurred_view(world, zooming, shutter)))
+        << frame;
+  });
 }
 
 TEST(MotionBlur, AConstantWorldStaysConstant) {
