@@ -90,28 +90,52 @@ struct FetchOf {
     }
   }
 
+  /// Between a texel and its neighbours to the right and below.
+  static void tent(const LevelView& level, const float* texel, float fx, float fy, float* to) {
+    const int n = channels(level);
+    const Value right(fx), down(fy);
+    for (int c = 0; c < n; c += 4) {
+      const float* a = texel + c;
+      const float* b = a + level.row_stride;
+      const Value a0 = Value::load_unaligned(a), a1 = Value::load_unaligned(a + n);
+      const Value b0 = Value::load_unaligned(b), b1 = Value::load_unaligned(b + n);
+      const Value left_side = xsimd::fma(down, b0 - a0, a0);
+      const Value right_side = xsimd::fma(down, b1 - a1, a1);
+      xsimd::fma(right, right_side - left_side, left_side).store_unaligned(to + c);
+    }
+  }
+
   static void bilinear(const LevelView& level, const float* chart, const float* u, const float* v, float* out,
                        std::size_t count) {
-    const int n = channels(level);
-    alignas(64) float fx[kSize], fy[kSize];
-    for (std::size_t start = 0; start < count; start += kSize) {
-      const Positions<Wide> positions(level, chart + start, u + start, v + start, 0.5f);
+    const auto n = static_cast<std::size_t>(channels(level));
+    // Texels of a run of samples are asked for before the first is read: in large maps they come from far.
+    constexpr std::size_t kRun = 32;
+    static_assert(kRun % kSize == 0);
+    alignas(64) float fx[kRun], fy[kRun];
+    const float* texels[kRun];
+    if (count <= kSize) {
+      const Positions<Wide> positions(level, chart, u, v, 0.5f);
       positions.fx.store_aligned(fx);
       positions.fy.store_aligned(fy);
-      for (std::size_t i = 0, here = in_pack(start, count); i < here; ++i) {
-        const float* texel = positions.template texel<C>(level, i);
-        float* to = out + (start + i) * static_cast<std::size_t>(n);
-        const Value right(fx[i]), down(fy[i]);
-        for (int c = 0; c < n; c += 4) {
-          const float* a = texel + c;
-          const float* b = a + level.row_stride;
-          const Value a0 = Value::load_unaligned(a), a1 = Value::load_unaligned(a + n);
-          const Value b0 = Value::load_unaligned(b), b1 = Value::load_unaligned(b + n);
-          const Value left_side = xsimd::fma(down, b0 - a0, a0);
-          const Value right_side = xsimd::fma(down, b1 - a1, a1);
-          xsimd::fma(right, right_side - left_side, left_side).store_unaligned(to + c);
+      for (std::size_t i = 0; i < count; ++i)
+        tent(level, positions.template texel<C>(level, i), fx[i], fy[i], out + i * n);
+      return;
+    }
+    for (std::size_t first = 0; first < count; first += kRun) {
+      const std::size_t run = count - first < kRun ? count - first : kRun;
+      for (std::size_t start = 0; start < run; start += kSize) {
+        const std::size_t at = first + start;
+        const Positions<Wide> positions(level, chart + at, u + at, v + at, 0.5f);
+        positions.fx.store_aligned(fx + start);
+        positions.fy.store_aligned(fy + start);
+        for (std::size_t i = 0, here = in_pack(start, run); i < here; ++i) {
+          const float* texel = positions.template texel<C>(level, i);
+          texels[start + i] = texel;
+          __builtin_prefetch(texel);
+          __builtin_prefetch(texel + level.row_stride);
         }
       }
+      for (std::size_t i = 0; i < run; ++i) tent(level, texels[i], fx[i], fy[i], out + (first + i) * n);
     }
   }
 
