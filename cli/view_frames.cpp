@@ -52,6 +52,17 @@ Image read_near(const std::string& file) {
 
 }  // namespace
 
+std::shared_ptr<const TexelPositions> KeptPositions::of(const MapFrame& world, const MapFrame& seen) {
+  const std::scoped_lock lock(mutex_);
+  if (!kept_ || !kept_->fit(world, seen)) kept_ = std::make_shared<const TexelPositions>(world, seen);
+  return kept_;
+}
+
+std::shared_ptr<const TexelPositions> ViewRequest::positions_for(const Map& world,
+                                                                 const MapFrame& seen) const {
+  return kept ? kept->of(world, seen) : nullptr;
+}
+
 Camera ViewRequest::camera_at(double frame) const {
   Camera at = camera;
   if (!path) return at;
@@ -102,6 +113,7 @@ ViewRequest::Picture ViewRequest::picture_of(const Worlds& worlds, int frame) co
     picture.map =
         worlds.blurred ? worlds.blurred->view(at, open, how) : blurred_view(worlds.left, at, open, how);
   } else {
+    shown.positions = positions_for(worlds.left, frame_of(camera_at(frame)));
     picture.map = view(worlds.left, camera_at(frame), shown);
   }
   if (!over.empty()) lay_over(picture, frame);
@@ -130,6 +142,7 @@ io::WriteReport ViewRequest::make(const Worlds& worlds, int frame, const std::st
   if (!worlds.right && !shutter && over.empty()) {
     WriteResampledOptions writing;
     writing.resample = options;
+    writing.resample.positions = positions_for(worlds.left, seen);
     writing.orientation = seen.orientation;
     writing.write = std::move(how);
     return write_resampled(file, worlds.left, shape, seen.size, writing);
@@ -178,6 +191,7 @@ void ViewRequest::run() {
       throw UsageError("--stream: needs a place for the frame's number in OUT: view_%04d.png");
     if (pair && reads_stream())
       throw UsageError("--pair: is for files; of a stream, take one eye with --eye");
+    if (!path && options.filter != Filter::automatic) kept = std::make_shared<KeptPositions>();
     return run_frames();
   }
   for (const auto& [given, option] :

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +20,16 @@ namespace welkin::cli {
 /// `left-right`, `top-bottom`. Throws Error for another name.
 Pair pair_from_name(std::string_view name);
 
+/// Positions that are kept from frame to frame while the worlds have one shape and the camera stands still.
+class KeptPositions {
+ public:
+  std::shared_ptr<const TexelPositions> of(const MapFrame& world, const MapFrame& seen);
+
+ private:
+  std::mutex mutex_;
+  std::shared_ptr<const TexelPositions> kept_;
+};
+
 /// The pictures that `view` makes.
 struct ViewRequest {
   std::string in, out;
@@ -35,6 +47,7 @@ struct ViewRequest {
   const ReadFlags* read = nullptr;
   const WriteFlags* write = nullptr;
   const StreamFlags* stream = nullptr;
+  std::shared_ptr<KeptPositions> kept = {};  ///< none: the camera moves, or the filter doesn't read them
 
   /// One picture, or one for each frame.
   void run();
@@ -59,6 +72,7 @@ struct ViewRequest {
 
   /// What is seen at a time in frames, from key frames where there are any.
   Camera camera_at(double frame) const;
+  std::shared_ptr<const TexelPositions> positions_for(const Map& world, const MapFrame& seen) const;
   Worlds read_worlds(const std::string& file, bool warn) const;
   /// The worlds with the channels that the output takes, and brightened.
   Worlds fit(Worlds worlds, const std::string& file, bool told) const;

@@ -37,6 +37,7 @@
 #include "welkin/filter/resample.h"
 #include "welkin/filter/resample_reference.h"
 #include "welkin/filter/sampler.h"
+#include "welkin/filter/texel_positions.h"
 #include "welkin/harmonics/bases.h"
 #include "welkin/harmonics/coefficients_file.h"
 #include "welkin/harmonics/dering.h"

@@ -68,6 +68,15 @@ must view world_1.png file.pfm "${camera[@]}"
 checks=$((checks + 1))
 cmp -s one.pfm file.pfm || fail "a stream of one PFM is not the file"
 
+# Positions are kept while the camera stands still, found anew for a world of another shape: the same as one by one.
+must synth zoneplate world_4.png --frequency 4 --size 100
+must view world_%d.png kept_%d.pfm "${camera[@]}" --from latlong --filter bilinear
+for frame in 0 3 4; do
+  must view "world_$frame.png" alone.pfm "${camera[@]}" --from latlong --filter bilinear
+  checks=$((checks + 1))
+  cmp -s "kept_$frame.pfm" alone.pfm || fail "frame $frame is another when positions are kept"
+done
+
 # Blurred motion: between the sharp frames, and as bright.
 printf 'frame,yaw\n0,0\n10,100\n' >keys.csv
 must view world_0.png sharp_%d.exr --path keys.csv --frames 0-1 --size 96x54

@@ -51,12 +51,17 @@ bool are_alike(const Matrix3& a, const Matrix3& b) {
 
 std::unique_ptr<TexelMaker> make_texels(const Map& source, const MapFrame& target,
                                         const ResampleOptions& options) {
+  if (options.positions && !options.positions->fit(source, target, options.rotation))
+    throw Error(ErrorKind::mismatch, "positions were found for maps of another shape or orientation");
   ResampleJob job(source, target, options);
   const bool same = source.parameterization == target.parameterization &&
                     source.width() == target.size.width && source.height() == target.size.height &&
                     are_alike(source.orientation * transpose(options.rotation), target.orientation);
   if (same) return std::make_unique<CopyMaker>(std::move(job));
-  if (options.filter == Filter::automatic) return make_means(std::move(job));
+  if (options.filter == Filter::automatic) {
+    job.options.positions = nullptr;
+    return make_means(std::move(job));
+  }
   const Fetch kernel = job.fetch_of(options.filter);
   return make_by_points(std::move(job), kernel);
 }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "welkin/base/export.h"
 #include "welkin/base/monitor.h"
 #include "welkin/filter/filter.h"
+#include "welkin/filter/texel_positions.h"
 #include "welkin/map/map.h"
 
 /// @file
@@ -28,6 +30,9 @@ struct ResampleOptions {
   /// the rim whose centres lie outside: filled, they serve look-ups there; left, they hold the mean over
   /// their part inside, which files of discs should have, or the fill.
   bool borders = true;
+  /// Positions of texels that were found before, for maps of these shapes; none: they are found on the way.
+  /// Results are the same. `automatic`, which looks at corners of texels, doesn't read them.
+  std::shared_ptr<const TexelPositions> positions = {};
   Monitor monitor = {};  ///< progress and cancelling
 };
 
@@ -37,7 +42,7 @@ struct ResampleOptions {
 /// minify more than sixteenfold. Positions are exact to 1e-6 of a chart's side. `automatic` keeps light: the
 /// integral over the sphere, and that of every texel, within the bounds that docs/filtering.md gives; values
 /// beyond ±1e37 may become infinite. Throws Error (bad_request) for maps of other numbers of channels;
-/// Cancelled.
+/// (mismatch) for positions of other maps; Cancelled.
 ///
 /// A target of the source's own parameterization, size and orientation gets the texels as they are.
 WELKIN_API void resample(const Map& source, Map& target, const ResampleOptions& options = {});

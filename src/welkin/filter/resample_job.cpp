@@ -1,6 +1,7 @@
 #include "welkin/filter/resample_job.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "welkin/base/error.h"
 
@@ -10,7 +11,7 @@ ResampleJob::ResampleJob(const Map& from, const MapFrame& to, const ResampleOpti
     : source(from),
       target(to),
       options(how),
-      to_source(from.orientation * transpose(how.rotation) * transpose(to.orientation)),
+      to_source(rotation_to_source(from.orientation, to.orientation, how.rotation)),
       turned(!(to_source == Matrix3{})),
       target_is_full(to.parameterization.full_charts()),
       source_is_whole(from.parameterization.whole_world()),
@@ -65,7 +66,29 @@ const float* Batch::fetch(Fetch kernel, const LevelView& level, std::size_t coun
   return pixels_.data();
 }
 
+void Batch::recall(const ChartPart& part, int width, int height) {
+  const TexelPositions& kept = *job_.options.positions;
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x, ++i) {
+      const int column = part.walk.image_x(x, y), row = part.walk.image_y(x, y);
+      const float* const charts = kept.chart(part.chart, row);
+      source_u[i] = kept.u(part.chart, row)[column];
+      source_v[i] = kept.v(part.chart, row)[column];
+      chart[i] = charts != nullptr ? charts[column] : 0.0f;
+    }
+  }
+  const std::size_t padded = sphere::padded(i);
+  for (float* values : {chart, source_u, source_v}) std::fill(values + i, values + padded, values[i - 1]);
+}
+
 const float* Batch::fetch_texels(Fetch kernel, const LevelView& level, int target_chart, std::size_t count) {
+  if (job_.options.positions) {
+    kernel(level, chart, source_u, source_v, pixels_.data(), count);
+    for (std::size_t i = 0; i < count; ++i) mask_[i] = std::isnan(source_u[i]) ? 0.0f : 1.0f;
+    if (job_.fills()) fill_where_zero(mask_, count);
+    return pixels_.data();
+  }
   fetch(kernel, level, count);
   if (!job_.target_is_full && !job_.target.parameterization.filled_to_edges()) {
     const auto& t = job_.target.parameterization;

@@ -12,6 +12,11 @@ namespace welkin {
 /// Samples that go through the pipeline together: their arrays stay in the first-level cache.
 inline constexpr int kBatch = 256;
 
+/// From directions of the target's parameterization to the source's.
+inline Matrix3 rotation_to_source(const Matrix3& source, const Matrix3& target, const Matrix3& rotation) {
+  return source * transpose(rotation) * transpose(target);
+}
+
 struct ResampleJob {
   ResampleJob(const Map& source, const MapFrame& target, const ResampleOptions& options);
 
@@ -43,6 +48,8 @@ class Batch {
   alignas(64) float chart[kBatch], source_u[kBatch], source_v[kBatch];  ///< positions in the source
   alignas(64) float weight[kBatch];  ///< solid angle per (u, v) area of the target
 
+  /// Takes positions that were kept, of texels of the target from there on.
+  void recall(const ChartPart& part, int width, int height);
   /// Finds the source's positions.
   void locate(int target_chart, std::size_t count);
   /// Weights each sample by the solid angle around it, 0 where the target is not valid. Call it after locate.

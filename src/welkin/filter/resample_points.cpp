@@ -10,6 +10,7 @@ namespace {
 
 /// Positions of the centres of texels, row by row of the picture, and where they lie in the source.
 void locate_centres(const ResampleJob& job, const ChartPart& part, int width, int height, Batch& batch) {
+  if (job.options.positions) return batch.recall(part, width, height);
   const float across = 1.0f / static_cast<float>(job.target.size.width);
   const float down = 1.0f / static_cast<float>(job.target.size.height);
   const auto u = [&](int x, int y) { return (static_cast<float>(part.walk.image_x(x, y)) + 0.5f) * across; };
@@ -46,6 +47,19 @@ class PointMaker final : public TexelMaker {
   }
 
  private:
+  /// Straight into the picture, by positions where they are kept.
+  void read_kept(const LevelView& source, const ChartPart& part, ImageView<float> out, Batch& batch) const {
+    const TexelPositions& kept = *job_.options.positions;
+    const int x = part.walk.start_x;
+    std::fill_n(batch.chart, kBatch, 0.0f);
+    for (int row = 0; row < out.height; ++row) {
+      const int y = part.walk.start_y + row;
+      const float* const charts = kept.chart(part.chart, y);
+      kernel_(source, charts != nullptr ? charts + x : batch.chart, kept.u(part.chart, y) + x,
+              kept.v(part.chart, y) + x, out.row(row), static_cast<std::size_t>(out.width));
+    }
+  }
+
   /// Tiles of 32 × 8 texels: what they read lies together along and across.
   static constexpr int kRows = 8;
   static constexpr int kMaxOverrun = 8;  ///< values that a kernel writes past its last one
@@ -60,6 +74,10 @@ class PointMaker final : public TexelMaker {
       const bool room_after = (out.width - x - columns) * out.channels >= kMaxOverrun;
       if (!room_after || job_.fills()) {
         resample_rectangle(job_, kernel_, part.from(x, 0), tile, batch);
+        continue;
+      }
+      if (job_.options.positions && part.walk.as_it_is()) {
+        read_kept(source, part.from(x, 0), tile, batch);
         continue;
       }
       // Straight into the picture. What a kernel writes past the end of a row is the next tile's.
