@@ -276,6 +276,16 @@ void write_table_seeds(const fs::path& root) {
   save(root / "brdf_table" / "grid", grid);
   save(root / "lobe_table" / "csv", "angle,weight\n0,1\n30,.5\n90,0\n");
   save(root / "lobe_table" / "blanks", "\xEF\xBB\xBF# degrees\r\n0 2e3\r\n5\t1\r\n180 0\r\n");
+  save(root / "camera_path" / "csv", "# turns\nframe,yaw,pitch,roll,fov\n0,0,0,0,90\n10, 360,-20,5,40\n");
+  save(root / "camera_path" / "json", R"([{"frame":0,"yaw":170},{"frame":1.5,"yaw":-170,"roll":720}])");
+  const std::string planes("\x10\x20\x80\xEB\x40\x60\x90\xA0\x55\x5A\x70\x81", 12);
+  save(root / "frame_stream" / "y4m",
+       "YUV4MPEG2 W4 H2 F30000:1001 Ip A1:1 C420jpeg\nFRAME\n" + planes + "FRAME\n" + planes);
+  save(root / "frame_stream" / "full", "YUV4MPEG2 W2 H2 C444 XCOLORRANGE=FULL\nFRAME\n" + planes);
+  save(root / "frame_stream" / "deep", "YUV4MPEG2 W3 H2 Cmono10\nFRAME\n" + planes);
+  save(root / "frame_stream" / "ppm", "P6\n# four\n2 2\n255\n" + planes + "P6\n2 2\n255\n" + planes);
+  save(root / "frame_stream" / "pgm", "P5 3 2 1023\n" + planes);
+  save(root / "frame_stream" / "pfm", "Pf\n3 1\n-1.0\n" + planes);
   save(root / "merl" / "ones", "r" + std::string("\0\0\0\0\0\0\xF0\x3F", 8));
   save(root / "merl" / "unmeasured", "r" + std::string("\0\0\0\0\0\0\xF0\xBF\0\0\0\0\0\0\xE0\x3F", 16));
   save(root / "merl" / "short", std::string("\x5A\0\0\0\x5A\0\0\0\xB4\0\0\0\0", 13));
