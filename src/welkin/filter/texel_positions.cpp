@@ -22,7 +22,7 @@ bool are_same(const MapFrame& a, const MapFrame& b) {
 TexelPositions::TexelPositions(const MapFrame& source, const MapFrame& target, const Matrix3& rotation)
     : source_(source), target_(target), rotation_(rotation) {
   require(is_orthonormal(rotation), "a world is turned by a rotation or a reflection");
-  const auto [width, height] = target.size;
+  const int width = target.size.width, height = target.size.height;
   const int charts = target.parameterization.charts();
   u_ = Image(width, charts * height, 1, PixelContents::unset);
   v_ = Image(width, charts * height, 1, PixelContents::unset);
