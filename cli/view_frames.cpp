@@ -189,6 +189,7 @@ void ViewRequest::run() {
     if (resume && stream->asked()) throw UsageError("--resume: is for numbered files, not for streams");
     if (reads_stream() && !writes_stream() && !FrameNames::has_place(out))
       throw UsageError("--stream: needs a place for the frame's number in OUT: view_%04d.png");
+    if (read->level && reads_stream()) throw UsageError("--level: a stream's frames have one level");
     if (pair && reads_stream())
       throw UsageError("--pair: is for files; of a stream, take one eye with --eye");
     if (!path && options.filter != Filter::automatic) kept = std::make_shared<KeptPositions>();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "welkin/base/error.h"
 #include "welkin/base/number_text.h"
 #include "welkin/io/process.h"
 #include "welkin/map/borders.h"
@@ -68,16 +69,18 @@ WorldStream::WorldStream(const ReadFlags& read, const StreamFlags& flags)
     : read_(read),
       reader_(&io::read_standard_input, kStandardInput, {flags.colour().matrix, read.colour == "linear"}) {
   const ReadMapOptions options = read.parse();
-  const Image black(info().width, info().height, info().channels);
-  const std::vector<std::byte> file = as_file(black.view());
-  MapReader opened(file, kStandardInput, options);
-  const MapShape& shape = opened.shape();
+  const MapFileInfo seen = inspect_picture({info().width, info().height},
+                                           default_channel_names(info().channels), kStandardInput, options);
+  if (!seen.shape)
+    throw Error(ErrorKind::bad_request, kStandardInput,
+                fmt::format("cannot tell which parameterization {}×{} is; name it with --from", info().width,
+                            info().height));
+  const MapShape& shape = *seen.shape;
   orientation_ = orientation_for(convention_from_name(read.convention.empty() ? "native" : read.convention),
                                  shape.parameterization);
   const bool one_picture = shape.layout.kind == LayoutKind::picture && shape.layout.name.empty();
   const bool as_it_is = read.faces.empty() && read.border == 0 && read.channels.empty() && !options.eye &&
-                        opened.info().stereo != io::Stereo::top_bottom &&
-                        opened.info().stereo != io::Stereo::left_right;
+                        seen.stereo != io::Stereo::top_bottom && seen.stereo != io::Stereo::left_right;
   if (one_picture && as_it_is) plain_ = shape;
 }
 

@@ -77,6 +77,13 @@ for frame in 0 3 4; do
   cmp -s "kept_$frame.pfm" alone.pfm || fail "frame $frame is another when positions are kept"
 done
 
+# What a stream's frames are is found by their size alone.
+{ printf 'P6\n32 32\n255\n'; head -c 3072 /dev/zero; } >square.ppm
+checks=$((checks + 2))
+"$welkin" view - - --stream ppm --size 16x9 <square.ppm >/dev/null 2>messages && fail "a square is a map"
+grep -q "cannot tell which parameterization 32×32 is" messages || fail "a square: $(cat messages)"
+"$welkin" view - - --stream ppm --size 16x9 --from octahedral <square.ppm 2>messages | head -c 2 | grep -q P6 || fail "--from: $(cat messages)"
+
 # Blurred motion: between the sharp frames, and as bright.
 printf 'frame,yaw\n0,0\n10,100\n' >keys.csv
 must view world_0.png sharp_%d.exr --path keys.csv --frames 0-1 --size 96x54
@@ -114,6 +121,7 @@ checks=$((checks + 1))
 
 refuses 2 "did you mean" view - - --stream ymm
 refuses 2 "name one of IN and OUT -" view world_0.png out.png --stream y4m
+refuses 2 "one level" view - - --stream y4m --level 1
 refuses 2 "frames a second" view - - --stream y4m --rate 0
 refuses 2 "is for --stream" view world_0.png out.png --rate 25
 refuses 2 "needs a place" view - out.png --stream y4m

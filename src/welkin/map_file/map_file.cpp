@@ -153,6 +153,16 @@ void MapReader::check_faces() {
   inspect_with(options_);
 }
 
+MapFileInfo inspect_picture(ChartSize size, const std::vector<std::string>& channels, const std::string& name,
+                            const ReadMapOptions& options) {
+  require(size.width > 0 && size.height > 0 && !channels.empty(), "a picture has texels and channels");
+  require(!is_pattern(name), "one picture has one name, without a %s");
+  io::FileInfo file;
+  file.parts.push_back(
+      {.name = {}, .width = size.width, .height = size.height, .channels = channels, .compression = "none"});
+  return inspect(name, file, options);
+}
+
 LoadedMap read_map(const fs::path& path, const ReadMapOptions& options) {
   MapReader reader(path, options);
   return {reader.read(), reader.info()};

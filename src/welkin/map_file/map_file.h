@@ -82,6 +82,12 @@ struct MapFileInfo {
   Matrix3 orientation;                   ///< that the map will have
 };
 
+/// What a MapReader finds of one picture that says nothing of itself, such as a stream's frames, without its
+/// pixels; how the faces of a cube join isn't looked at. `name` stands for the path in messages. Throws Error
+/// (bad_request): a side below 1, no channels; else as MapReader does.
+WELKIN_API MapFileInfo inspect_picture(ChartSize size, const std::vector<std::string>& channels,
+                                       const std::string& name, const ReadMapOptions& options = {});
+
 /// A map's file, opened once: it may be a pipe. `path` contains `%s` when the charts are in files of their
 /// own, unless a file is called so; the first of these is opened, the others when they are read. The `%s`
 /// stands for `px`, `nx`…, or what other tools call the faces of a cube; or for the charts' numbers. Members

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "welkin/base/error.h"
 #include "welkin/map/borders.h"
@@ -27,6 +28,50 @@ class MapFile : public testing::Test {
 
   fs::path folder_;
 };
+
+/// Of a picture's size alone, the shape that its file would have.
+TEST(InspectPicture, IsWhatAFileSays) {
+  const auto held_in = [](int width, int height, const ReadMapOptions& options) {
+    const std::string header = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+    std::vector<std::byte> bytes(header.size() + static_cast<std::size_t>(12 * width * height));
+    std::copy(header.begin(), header.end(), reinterpret_cast<char*>(bytes.data()));
+    return MapReader(bytes, "frames", options).info();
+  };
+  ReadMapOptions eye;
+  eye.eye = Eye::right;
+  ReadMapOptions bordered;
+  bordered.shape = "latlong";
+  bordered.border = 2;
+  for (const auto& [width, height, options] : {std::tuple{64, 32, ReadMapOptions{}},
+                                               {64, 48, {}},
+                                               {30, 20, {}},
+                                               {32, 32, {}},
+                                               {64, 64, eye},
+                                               {44, 24, bordered}}) {
+    ReadMapOptions unjoined = options;
+    unjoined.join_faces = false;
+    const MapFileInfo wanted = held_in(width, height, unjoined);
+    const MapFileInfo found = inspect_picture({width, height}, {"R", "G", "B"}, "frames", options);
+    ASSERT_EQ(wanted.shape.has_value(), found.shape.has_value()) << width;
+    if (wanted.shape) {
+      EXPECT_EQ(wanted.shape->text(), found.shape->text());
+    }
+    EXPECT_EQ(wanted.reason, found.reason);
+    EXPECT_EQ(wanted.chart.width, found.chart.width);
+    EXPECT_EQ(wanted.chart.height, found.chart.height);
+    EXPECT_EQ(wanted.channels, found.channels);
+    EXPECT_EQ(wanted.stereo, found.stereo);
+  }
+}
+
+TEST(InspectPicture, RefusesWhatIsNone) {
+  EXPECT_THROW(inspect_picture({0, 32}, {"R"}, "frames"), Error);
+  EXPECT_THROW(inspect_picture({64, 32}, {}, "frames"), Error);
+  EXPECT_THROW(inspect_picture({64, 32}, {"R"}, "%s"), Error);
+  ReadMapOptions cube;
+  cube.shape = "cube:hcross";
+  EXPECT_THROW(inspect_picture({64, 32}, {"R"}, "frames", cube), Error);
+}
 
 /// A map whose every value is different.
 Map numbered(const AnyParameterization& p, int width, int height, int channels) {
