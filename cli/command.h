@@ -34,22 +34,6 @@ auto parse_option(std::string_view option, const Parse& parse) {
   }
 }
 
-void add_info(CLI::App& app);
-void add_convert(CLI::App& app);
-void add_bake(CLI::App& app);
-void add_view(CLI::App& app);
-void add_render(CLI::App& app);
-void add_sample(CLI::App& app);
-void add_importance(CLI::App& app);
-void add_diff(CLI::App& app);
-void add_assemble(CLI::App& app);
-void add_lights(CLI::App& app);
-void add_synth(CLI::App& app);
-void add_sh(CLI::App& app);
-void add_plot(CLI::App& app);
-void add_lut(CLI::App& app);
-void add_list(CLI::App& app);
-
 /// Accepts finite numbers of at least `minimum`.
 CLI::Validator finite_number(double minimum = -std::numeric_limits<double>::max());
 

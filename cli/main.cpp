@@ -6,6 +6,7 @@
 #include <new>
 
 #include "command.h"
+#include "commands.h"
 #include "hints.h"
 #include "progress.h"
 #include "welkin/base/error.h"
@@ -62,6 +63,7 @@ int run(int argc, char** argv) {
   cli::add_bake(app);
   cli::add_view(app);
   cli::add_render(app);
+  cli::add_roughness(app);
   cli::add_sample(app);
   cli::add_importance(app);
   cli::add_diff(app);
