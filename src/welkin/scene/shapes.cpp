@@ -51,7 +51,8 @@ Mesh sphere_mesh(int rows) {
   Mesh mesh = grid_mesh(
       [](double u, double v) {
         // From −Z by way of −X, as u goes right seen from outside; from the top down.
-        const double azimuth = 2 * kPi * u, polar = kPi * v, s = std::sin(polar);
+        // Where it closes, vertices are the same to the bit, or rays go through between them.
+        const double azimuth = u < 1 ? 2 * kPi * u : 0, polar = kPi * v, s = v < 1 ? std::sin(polar) : 0;
         const Vec3d d{-s * std::sin(azimuth), std::cos(polar), -s * std::cos(azimuth)};
         return GridPoint{d, d};
       },
@@ -64,7 +65,7 @@ Mesh torus_mesh(double tube, int around, int across) {
   require(tube > 0 && tube < 1, "a torus's tube is thinner than its ring");
   Mesh mesh = grid_mesh(
       [tube](double u, double v) {
-        const double azimuth = 2 * kPi * u, turn = kPi * (1 - 2 * v);
+        const double azimuth = u < 1 ? 2 * kPi * u : 0, turn = v < 1 ? kPi * (1 - 2 * v) : kPi;
         const Vec3d out{-std::sin(azimuth), 0, -std::cos(azimuth)};
         const Vec3d normal = std::cos(turn) * out + Vec3d{0, std::sin(turn), 0};
         return GridPoint{out + tube * normal, normal};

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "welkin/scene/scene.h"
 #include "welkin/scene/shape_cases.h"
@@ -65,6 +69,32 @@ TEST(Shapes, ImplicitSurfacesAreWhereTheFunctionIsZero) {
   EXPECT_ANY_THROW(implicit_mesh(ball, {{-1, -1, -1}, {0.5, 1, 1}}, 50));
   const auto hasty = [&](const Vec3d& p) { return 8 * ball(p); };
   EXPECT_ANY_THROW(implicit_mesh(hasty, {{-1, -1, -1}, {1.5, 1.3, 1.7}}, 50));
+}
+
+/// Whether the ends of every edge are, to the bit, those of another triangle's the other way round.
+bool joins_exactly(const Mesh& mesh) {
+  using Point = std::array<float, 3>;
+  std::map<std::pair<Point, Point>, int> edges;
+  const auto at = [&](std::uint32_t i) {
+    const Vec3<float>& p = mesh.positions[i];
+    return Point{p.x, p.y, p.z};
+  };
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point from = at(t[i]), to = at(t[(i + 1) % 3]);
+      ++edges[{from, to}];
+      --edges[{to, from}];
+    }
+  }
+  return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
+// Rays go through gaps of the last bit.
+TEST(Shapes, BodiesHaveNoGaps) {
+  EXPECT_TRUE(joins_exactly(sphere_mesh(12)));
+  EXPECT_TRUE(joins_exactly(torus_mesh(0.3, 12, 8)));
+  EXPECT_TRUE(joins_exactly(box_mesh()));
+  EXPECT_FALSE(joins_exactly(square_mesh()));
 }
 
 TEST(SceneCheck, TellsWhatDoesNotFit) {
