@@ -122,6 +122,7 @@
 #include "welkin/prefilter/view_bake.h"
 #include "welkin/prefilter/view_reference.h"
 #include "welkin/prefilter/view_stack.h"
+#include "welkin/render/project.h"
 #include "welkin/render/render.h"
 #include "welkin/render/shading.h"
 #include "welkin/render/sphere_pictures.h"

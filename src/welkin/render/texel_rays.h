@@ -1,0 +1,75 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "welkin/render/camera_rays.h"
+#include "welkin/render/project.h"
+
+/// Texels of a world projection, gathered by rays.
+namespace welkin::scene {
+
+/// Some texels of a chart.
+struct TexelBlock {
+  int chart = 0;
+  int x = 0, y = 0;           ///< the first
+  int width = 0, height = 0;  ///< how many
+};
+
+/// The blocks of all charts, each of as many rays as suit a processor's cache.
+std::vector<TexelBlock> texel_blocks(int charts, ChartSize size, int samples);
+
+/// The rays of a block's texels, row by row, samples² of each. They depend on no position.
+struct TexelRays {
+  std::size_t per_texel = 0;
+  std::vector<RaySpread> rays;  ///< from the origin
+  std::vector<float> weights;   ///< those of a texel add up to 1
+  std::vector<bool> valid;      ///< of each texel: false where its centre is no position, its weights 0
+};
+TexelRays texel_rays(const MapFrame& frame, const TexelBlock& block, int samples);
+
+/// What a texel sees.
+struct SeenTexel {
+  Rgb radiance = {};
+  float coverage = 0;      ///< of surfaces
+  float depth = 0;         ///< mean distance
+  float depth_square = 0;  ///< mean of its square
+  float behind = 0;        ///< share of rays that first meet a triangle's back
+  bool all_sky = false;    ///< no surface: the background isn't in `radiance`
+};
+
+/// Sees texels, those of one thread at a time.
+class TexelEye {
+ public:
+  TexelEye(const ShadedScene& seen, double farthest) : seen_(seen), farthest_(farthest) {}
+
+  /// One of each texel, from a place.
+  void see(const TexelRays& texels, const Vec3d& position, std::span<SeenTexel> out);
+
+ private:
+  /// A ray on its way.
+  struct Way {
+    std::uint32_t ray;
+    float through;  ///< what is left of the light behind
+    float near;
+  };
+
+  void trace(const TexelRays& texels, const Vec3d& position, bool first, std::span<SeenTexel> out);
+  void shade(std::span<SeenTexel> out);
+  void add_background(const TexelRays& texels, const Vec3d& position, std::span<SeenTexel> out);
+
+  ShadedScene seen_;
+  double farthest_;
+  std::vector<Way> ways_, missed_;
+  std::vector<Ray> traced_;
+  std::vector<Hit> hits_;
+  std::vector<Surface> surfaces_;
+  std::vector<float> weights_;
+  std::vector<std::uint32_t> texels_;  // of each surface
+  std::vector<Rgb> radiance_;
+};
+
+/// A background's means over all texels; none where it isn't infinitely far.
+std::optional<Map> sky_of(const World* background, const MapFrame& frame, const Monitor& monitor = {});
+
+}  // namespace welkin::scene
