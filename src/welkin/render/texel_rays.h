@@ -34,7 +34,7 @@ struct SeenTexel {
   float coverage = 0;      ///< of surfaces
   float depth = 0;         ///< mean distance
   float depth_square = 0;  ///< mean of its square
-  float behind = 0;        ///< share of rays that first meet a triangle's back
+  float behind = 0;        ///< share of rays that first meet a one-sided triangle's back
   bool all_sky = false;    ///< no surface: the background isn't in `radiance`
 };
 
