@@ -12,6 +12,7 @@
 #include "welkin/base/parallel.h"
 #include "welkin/map/borders.h"
 #include "welkin/prefilter/prefilter.h"
+#include "welkin/render/texel_matrix.h"
 #include "welkin/render/texel_rays.h"
 
 namespace welkin::scene {
@@ -103,6 +104,17 @@ auto alone(const Work& work) {
   return tbb::this_task_arena::isolate(work);
 }
 
+/// No variance is negative.
+void limit_moments(Map& moments) {
+  const ImageView<float> chart = moments.level.chart(0);
+  for (int y = -kBorder; y < chart.height + kBorder; ++y) {
+    for (int x = -kBorder; x < chart.width + kBorder; ++x) {
+      float* texel = chart.at(x, y);
+      texel[1] = std::max(texel[1], texel[0] * texel[0]);
+    }
+  }
+}
+
 /// Makes the tiles of one probe after the other.
 class GridMaker {
  public:
@@ -111,6 +123,14 @@ class GridMaker {
   void make(int index);
 
  private:
+  /// An atlas, and what makes its tiles of all probes: a matrix, or where that is none a plan.
+  struct Filtered {
+    std::size_t atlas;
+    bool of_depth;
+    std::optional<TexelMatrix> matrix;
+    std::optional<PrefilterPlan> plan;
+  };
+
   void project(int index, Map& light, Map* depth);
   void copy(const Map& map, ProbeAtlas& atlas, int index) const;
 
@@ -120,11 +140,9 @@ class GridMaker {
   MapFrame frame_;
   std::optional<Map> sky_;
   std::vector<TexelBlock> blocks_;
-  std::vector<TexelRays> rays_;                 // of each block
-  std::vector<float> solid_angles_;             // of each texel
-  std::vector<std::size_t> filtered_;           // atlases in the order of the plan
-  std::optional<PrefilterPlan> light_, depth_;  // of all probes
-  std::size_t depth_atlas_ = 0;
+  std::vector<TexelRays> rays_;      // of each block
+  std::vector<float> solid_angles_;  // of each texel
+  std::vector<Filtered> filtered_;
   tbb::enumerable_thread_specific<TexelEye> eyes_;
 };
 
@@ -141,26 +159,20 @@ GridMaker::GridMaker(const ShadedScene& seen, ProbeGrid& grid, const ProbeGridOp
   for (int y = 0; y < options.size; ++y)
     texel_solid_angles(frame_.parameterization, options.size, options.size, 0, y,
                        solid_angles_.data() + y * options.size);
-  PrefilterOptions how;
-  how.orientation = options.orientation;
-  const PrefilterShape shape{frame_.parameterization, frame_.size, 3};
-  std::vector<PrefilterLevel> levels;
   for (std::size_t i = 0; i < grid.atlases.size(); ++i) {
     const ProbeAtlas& atlas = grid.atlases[i];
     if (atlas.name == "radiance") continue;
-    const PrefilterLevel level{{atlas.size, atlas.size}, lobe::AnyLobe::make(atlas.lobe)};
-    if (atlas.name == "depth") {
-      PrefilterOptions precise = how;
-      precise.tolerance = kDepthTolerance;
-      depth_.emplace(PrefilterShape{shape.parameterization, shape.size, 2}, shape.parameterization,
-                     std::vector{level}, precise);
-      depth_atlas_ = i;
-    } else {
-      levels.push_back(level);
-      filtered_.push_back(i);
-    }
+    const auto lobe = lobe::AnyLobe::make(atlas.lobe);
+    const ChartSize size{atlas.size, atlas.size};
+    Filtered& filtered = filtered_.emplace_back(Filtered{i, atlas.name == "depth", {}, {}});
+    filtered.matrix = TexelMatrix::make(frame_.parameterization, frame_.size, size, lobe);
+    if (filtered.matrix) continue;
+    PrefilterOptions how;
+    how.orientation = options.orientation;
+    if (filtered.of_depth) how.tolerance = kDepthTolerance;
+    filtered.plan.emplace(PrefilterShape{frame_.parameterization, frame_.size, filtered.of_depth ? 2 : 3},
+                          frame_.parameterization, std::vector{PrefilterLevel{size, lobe}}, how);
   }
-  if (!levels.empty()) light_.emplace(shape, shape.parameterization, levels, how);
 }
 
 void GridMaker::project(int index, Map& light, Map* depth) {
@@ -213,26 +225,18 @@ void GridMaker::make(int index) {
   };
   Map light = empty(3);
   std::optional<Map> depth;
-  if (depth_) depth.emplace(empty(2));
+  if (options_.depth_size > 0) depth.emplace(empty(2));
   project(index, light, depth ? &*depth : nullptr);
   fill_borders(light);
+  if (depth) fill_borders(*depth);
   if (options_.radiance) copy(light, grid_.atlases[0], index);
-  if (light_) {
-    const std::vector<Map> levels = alone([&] { return light_->run(light); });
-    for (std::size_t i = 0; i < levels.size(); ++i) copy(levels[i], grid_.atlases[filtered_[i]], index);
+  for (const Filtered& filtered : filtered_) {
+    const Map& from = filtered.of_depth ? *depth : light;
+    Map level = filtered.matrix ? filtered.matrix->apply(from)
+                                : std::move(alone([&] { return filtered.plan->run(from); })[0]);
+    if (filtered.of_depth) limit_moments(level);
+    copy(level, grid_.atlases[filtered.atlas], index);
   }
-  if (!depth) return;
-  fill_borders(*depth);
-  std::vector<Map> moments = alone([&] { return depth_->run(*depth); });
-  Level& level = moments[0].level;
-  for (int y = -kBorder; y < level.height() + kBorder; ++y) {
-    for (int x = -kBorder; x < level.width() + kBorder; ++x) {
-      // No variance is negative.
-      float* texel = level.chart(0).at(x, y);
-      texel[1] = std::max(texel[1], texel[0] * texel[0]);
-    }
-  }
-  copy(moments[0], grid_.atlases[depth_atlas_], index);
 }
 
 }  // namespace

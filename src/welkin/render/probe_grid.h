@@ -92,11 +92,11 @@ inline constexpr double kInsideShare = 0.25;
 /// What a grid of these options needs, bytes: all atlases.
 WELKIN_API double probe_grid_bytes(const ProbeBox& probes, const ProbeGridOptions& options);
 
-/// Projects the scene at every probe, and filters that with one plan for all. Diffuse light and GGX are means
-/// (LobeScale::average): a constant world stays what it is, and irradiance is π times `diffuse`. The same
-/// bits for any number of threads. Besides the atlases, memory is needed for a probe of each thread. Throws
-/// Error (bad_request): options out of range, a box whose sides are not finite or have no size; (too_large)
-/// for over 2²⁴ probes, atlases over 8 GiB altogether, or sides over 2²⁰ texels; Cancelled.
+/// Projects the scene at every probe, and filters that, with one plan for all. Diffuse light and GGX are
+/// means (LobeScale::average): a constant world stays what it is, and irradiance is π times `diffuse`. The
+/// same bits for any number of threads. Besides the atlases, memory is needed for a probe of each thread.
+/// Throws Error (bad_request): options out of range, a box whose sides are not finite or have no size;
+/// (too_large) for over 2²⁴ probes, atlases over 8 GiB altogether, or sides over 2²⁰ texels; Cancelled.
 WELKIN_API ProbeGrid project_grid(const ShadedScene& seen, const ProbeBox& probes,
                                   const ProbeGridOptions& options = {});
 

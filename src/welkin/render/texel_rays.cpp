@@ -105,8 +105,7 @@ void TexelEye::trace(const TexelRays& texels, const Vec3d& position, bool first,
     RaySpread ray = texels.rays[way.ray];
     ray.origin = position;
     const Surface at = seen_.scene.surface(ray, hits_[i]);
-    if (first && at.from_behind && !at.material.material->two_sided)
-      to.behind += texels.weights[way.ray];
+    if (first && at.from_behind && !at.material.material->two_sided) to.behind += texels.weights[way.ray];
     const float alpha = at.material.alpha;
     way.near = hits_[i].distance + static_cast<float>(seen_.scene.clearance(at.position));
     if (alpha > 0) {
