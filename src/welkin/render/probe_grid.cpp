@@ -138,7 +138,7 @@ class GridMaker {
   ProbeGrid& grid_;
   const ProbeGridOptions& options_;
   MapFrame frame_;
-  std::optional<Map> sky_;
+  std::optional<FineSky> sky_;
   std::vector<TexelBlock> blocks_;
   std::vector<TexelRays> rays_;      // of each block
   std::vector<float> solid_angles_;  // of each texel
@@ -151,9 +151,10 @@ GridMaker::GridMaker(const ShadedScene& seen, ProbeGrid& grid, const ProbeGridOp
       grid_(grid),
       options_(options),
       frame_(octahedral(), {options.size, options.size}, options.orientation),
-      sky_(sky_of(seen.background, frame_)),
+      sky_(sky_of(seen.background, frame_, options.samples)),
       blocks_(texel_blocks(1, frame_.size, options.samples)),
-      eyes_([&seen, farthest = grid.farthest] { return TexelEye(seen, farthest); }) {
+      eyes_(
+          [this] { return TexelEye(seen_, sky_ ? &*sky_ : nullptr, grid_.farthest, options_.shade_once); }) {
   for (const TexelBlock& block : blocks_) rays_.push_back(texel_rays(frame_, block, options.samples));
   solid_angles_.resize(static_cast<std::size_t>(options.size * options.size));
   for (int y = 0; y < options.size; ++y)
@@ -191,11 +192,12 @@ void GridMaker::project(int index, Map& light, Map* depth) {
       for (int column = 0; column < block.width; ++column) {
         const SeenTexel& texel = texels[static_cast<std::size_t>(row * block.width + column)];
         const int tx = block.x + column, ty = block.y + row;
-        const float* sky = texel.all_sky && sky_ ? std::as_const(sky_->level).chart(0).at(tx, ty) : nullptr;
+        const float* sky =
+            texel.all_sky && sky_ ? std::as_const(sky_->texels).level.chart(0).at(tx, ty) : nullptr;
         float* out = to.at(tx, ty);
         for (int c = 0; c < 3; ++c)
           out[c] = texel.radiance[static_cast<std::size_t>(c)] +
-                   (sky != nullptr ? sky[sky_->channels() >= 3 ? c : 0] : 0);
+                   (sky != nullptr ? sky[sky_->texels.channels() >= 3 ? c : 0] : 0);
         behind += static_cast<double>(texel.behind) *
                   static_cast<double>(solid_angles_[static_cast<std::size_t>(ty * options_.size + tx)]);
         if (depth == nullptr) continue;

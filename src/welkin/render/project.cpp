@@ -61,7 +61,8 @@ Map project(const ShadedScene& seen, const Vec3d& position, const MapFrame& to,
   Map map(to.parameterization, to.size.width, to.size.height, static_cast<int>(names.size()));
   map.channel_names = names;
   map.orientation = to.orientation;
-  const std::optional<Map> sky = sky_of(seen.background, to, part_of(options.monitor, 0, 0.1));
+  const std::optional<FineSky> sky =
+      sky_of(seen.background, to, options.samples, part_of(options.monitor, 0, 0.1));
   const double farthest = options.farthest.value_or(farthest_distance(seen.scene.scene(), position));
 
   const std::vector<TexelBlock> blocks = texel_blocks(map.charts(), to.size, options.samples);
@@ -72,14 +73,14 @@ Map project(const ShadedScene& seen, const Vec3d& position, const MapFrame& to,
         const TexelBlock& block = blocks[static_cast<std::size_t>(index)];
         const TexelRays rays = texel_rays(to, block, options.samples);
         std::vector<SeenTexel> texels(rays.rays.size() / rays.per_texel);
-        TexelEye(seen, farthest).see(rays, position, texels);
+        TexelEye(seen, sky ? &*sky : nullptr, farthest, options.shade_once).see(rays, position, texels);
         const ImageView<float> out = map.level.chart(block.chart);
         for (std::size_t i = 0; i < texels.size(); ++i) {
           if (!rays.valid[i]) continue;
           const int x = block.x + static_cast<int>(i) % block.width,
                     y = block.y + static_cast<int>(i) / block.width;
-          store(texels[i], options, sky ? sky->level.chart(block.chart).at(x, y) : nullptr,
-                sky ? sky->channels() : 0, out.at(x, y));
+          store(texels[i], options, sky ? sky->texels.level.chart(block.chart).at(x, y) : nullptr,
+                sky ? sky->texels.channels() : 0, out.at(x, y));
         }
       },
       monitor);

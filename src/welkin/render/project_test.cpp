@@ -202,6 +202,22 @@ TEST(Project, OutlinesBeforeTheSkyKeepTheirShares) {
   }
 }
 
+// Shaded once, a texel differs where light changes within it; the shares of what it sees don't.
+TEST(Project, ShadedOnceItIsNearlyTheSame) {
+  const TracedScene scene(furnished_room());
+  const World world(synth_map("studio"));
+  const auto material = make_shading("material", {world});
+  const auto with = [&](bool once, const Shading& shading) {
+    return project({scene, shading, &world}, {0, 0, 0}, frame("octahedral", 48),
+                   {.samples = 4, .shade_once = once, .coverage = true, .depth = DepthChannels::mean});
+  };
+  const Map each = with(false, *material), once = with(true, *material);
+  EXPECT_LT(compare(each, once).all.relative_rmse, 0.01);
+  // Of one colour for each body they are the same.
+  EXPECT_LT(compare(with(false, EmissionShading()), with(true, EmissionShading())).all.maximum_absolute,
+            1e-5);
+}
+
 TEST(Project, TheSameForAnyNumberOfThreads) {
   const TracedScene scene(furnished_room());
   const World world(synth_map("studio"));

@@ -97,18 +97,31 @@ Map TexelMatrix::apply(const Map& source) const {
   Map level(parameterization_, to_.width, to_.height, channels);
   level.orientation = source.orientation;
   const auto targets = static_cast<std::size_t>(texels_of(parameterization_, to_));
-  std::vector<float> sums(targets * static_cast<std::size_t>(channels));
-  const float* weights = weights_.data();
-  for (int chart = 0; chart < source.charts(); ++chart) {
-    for (int y = 0; y < from_.height; ++y) {
-      const float* texel = source.level.chart(chart).row(y);
-      for (int x = 0; x < from_.width; ++x, texel += channels, weights += targets) {
-        for (int c = 0; c < channels; ++c) {
-          float* to = sums.data() + static_cast<std::size_t>(c) * targets;
-          const float value = texel[c];
-          for (std::size_t t = 0; t < targets; ++t) to[t] += weights[t] * value;
-        }
+  // Channel by channel, and four texels at once: sums are loaded and stored less often.
+  const auto sources = weights_.size() / targets;
+  std::vector<float> values(sources * static_cast<std::size_t>(channels)),
+      sums(targets * static_cast<std::size_t>(channels));
+  std::size_t source_texel = 0;
+  for (int chart = 0; chart < source.charts(); ++chart)
+    for (int y = 0; y < from_.height; ++y)
+      for (int x = 0; x < from_.width; ++x, ++source_texel)
+        for (int c = 0; c < channels; ++c)
+          values[static_cast<std::size_t>(c) * sources + source_texel] =
+              source.level.chart(chart).at(x, y)[c];
+  for (std::size_t k = 0; k < sources; k += 4) {
+    const std::size_t count = std::min<std::size_t>(4, sources - k);
+    const float* w = weights_.data() + k * targets;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+      float* to = sums.data() + c * targets;
+      const float* v = values.data() + c * sources + k;
+      if (count == 4) {
+        const float v0 = v[0], v1 = v[1], v2 = v[2], v3 = v[3];
+        for (std::size_t t = 0; t < targets; ++t)
+          to[t] += (w[t] * v0 + w[targets + t] * v1) + (w[2 * targets + t] * v2 + w[3 * targets + t] * v3);
+        continue;
       }
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t t = 0; t < targets; ++t) to[t] += w[i * targets + t] * v[i];
     }
   }
   std::size_t t = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/base/parallel.h"
 #include "welkin/filter/resample.h"
 #include "welkin/sphere/kernels.h"
 
@@ -11,6 +12,10 @@ namespace {
 
 /// Surfaces behind one another that a ray goes through.
 constexpr int kMostLayers = 32;
+/// Normals and distances of what is shaded once: the cosine, and the ratio.
+constexpr float kOneSide = 0.97f, kOneDistance = 1.25f;
+/// Texels of a sky as rays see it.
+constexpr std::int64_t kMostSkyTexels = 1 << 22;
 /// Rays of a block: what is known of them stays in a processor's second cache.
 constexpr int kBlockSide = 16, kBlockRays = 128;
 
@@ -48,6 +53,8 @@ TexelRays texel_rays(const MapFrame& frame, const TexelBlock& block, int samples
     }
   }
   TexelRays made;
+  made.block = block;
+  made.samples = samples;
   made.per_texel = per_texel;
   std::vector<bool> valid;
   const CameraRays camera(frame, {0, 0, 0});
@@ -86,6 +93,30 @@ TexelRays texel_rays(const MapFrame& frame, const TexelBlock& block, int samples
   return made;
 }
 
+TexelEye::TexelEye(const ShadedScene& seen, const FineSky* sky, double farthest, bool shade_once)
+    : seen_(seen), sky_(sky), farthest_(farthest), shade_once_(shade_once) {
+  const Scene& scene = seen.scene.scene();
+  for (const Instance& instance : scene.instances) {
+    const int own = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+    const Material& material =
+        scene.materials[static_cast<std::size_t>(instance.material >= 0 ? instance.material : own)];
+    opaque_.push_back(!material.masked && !material.blended);
+    two_sided_.push_back(material.two_sided);
+  }
+}
+
+/// Whether a hit is of a surface that its texel has met before, whose weight then grows.
+bool TexelEye::joins_group(const Hit& hit, const Vec3<float>& across, float weight) {
+  for (const Group& group : groups_) {
+    if (group.instance != hit.instance || dot(group.across, across) < kOneSide) continue;
+    if (hit.distance > kOneDistance * group.distance || group.distance > kOneDistance * hit.distance)
+      continue;
+    weights_[group.surface] += weight;
+    return true;
+  }
+  return false;
+}
+
 void TexelEye::trace(const TexelRays& texels, const Vec3d& position, bool first, std::span<SeenTexel> out) {
   const Vec3<float> origin = to_float(position);
   traced_.clear();
@@ -93,30 +124,55 @@ void TexelEye::trace(const TexelRays& texels, const Vec3d& position, bool first,
     traced_.push_back({origin, to_float(texels.rays[way.ray].direction), way.near});
   hits_.resize(traced_.size());
   seen_.scene.closest(traced_, hits_, Coherence::close);
+  const auto farthest = static_cast<float>(farthest_);
   std::size_t left = 0;
+  std::uint32_t last_texel = 0;
+  groups_.clear();
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     Way way = ways_[i];
-    if (!hits_[i]) {
+    const Hit& hit = hits_[i];
+    if (!hit) {
       missed_.push_back(way);
       continue;
     }
     const auto texel = static_cast<std::uint32_t>(way.ray / texels.per_texel);
+    if (texel != last_texel) groups_.clear();
+    last_texel = texel;
     SeenTexel& to = out[texel];
-    RaySpread ray = texels.rays[way.ray];
-    ray.origin = position;
-    const Surface at = seen_.scene.surface(ray, hits_[i]);
-    if (first && at.from_behind && !at.material.material->two_sided) to.behind += texels.weights[way.ray];
-    const float alpha = at.material.alpha;
-    way.near = hits_[i].distance + static_cast<float>(seen_.scene.clearance(at.position));
-    if (alpha > 0) {
-      const float weight = alpha * way.through * texels.weights[way.ray];
-      const float distance = std::min(hits_[i].distance, static_cast<float>(farthest_));
-      surfaces_.push_back(at);
-      weights_.push_back(weight);
-      texels_.push_back(texel);
+    const float ray_weight = texels.weights[way.ray];
+    if (first && !two_sided_[hit.instance] && dot(hit.across, traced_[i].direction) > 0)
+      to.behind += ray_weight;
+    const auto covered = [&](float weight) {
+      const float distance = std::min(hit.distance, farthest);
       to.coverage += weight;
       to.depth += weight * distance;
       to.depth_square += weight * distance * distance;
+    };
+    RaySpread ray = texels.rays[way.ray];
+    if (shade_once_ && opaque_[hit.instance]) {
+      const float weight = way.through * ray_weight;
+      const Vec3<float> across = normalize(hit.across);
+      covered(weight);
+      if (joins_group(hit, across, weight)) continue;
+      groups_.push_back({hit.instance, across, hit.distance, surfaces_.size()});
+      ray.origin = position;
+      ray.direction_change.right = static_cast<double>(texels.samples) * ray.direction_change.right;
+      ray.direction_change.down = static_cast<double>(texels.samples) * ray.direction_change.down;
+      surfaces_.push_back(seen_.scene.surface(ray, hit));
+      weights_.push_back(weight);
+      texels_.push_back(texel);
+      continue;
+    }
+    ray.origin = position;
+    const Surface at = seen_.scene.surface(ray, hit);
+    const float alpha = at.material.alpha;
+    way.near = hit.distance + static_cast<float>(seen_.scene.clearance(at.position));
+    if (alpha > 0) {
+      const float weight = alpha * way.through * ray_weight;
+      covered(weight);
+      surfaces_.push_back(at);
+      weights_.push_back(weight);
+      texels_.push_back(texel);
     }
     way.through *= 1 - alpha;
     if (way.through > 1e-4f) ways_[left++] = way;
@@ -145,6 +201,18 @@ void TexelEye::add_background(const TexelRays& texels, const Vec3d& position, st
     to.depth += weight * farthest;
     to.depth_square += weight * farthest * farthest;
     if (world == nullptr || (far && to.all_sky)) continue;
+    if (sky_ != nullptr && sky_->rays) {
+      const auto texel = static_cast<int>(way.ray / texels.per_texel),
+                 cell = static_cast<int>(way.ray % texels.per_texel);
+      const int x = texels.block.x + texel % texels.block.width,
+                y = texels.block.y + texel / texels.block.width;
+      const Map& sky = *sky_->rays;
+      const float* value =
+          sky.level.chart(texels.block.chart)
+              .at(x * texels.samples + cell % texels.samples, y * texels.samples + cell / texels.samples);
+      for (std::size_t c = 0; c < 3; ++c) to.radiance[c] += weight * value[sky.channels() >= 3 ? c : 0];
+      continue;
+    }
     const RaySpread& ray = texels.rays[way.ray];
     const Vec3d middle = seen_from(world->proxy(), position, ray.direction);
     const auto moved = [&](const Vec3d& by) {
@@ -184,13 +252,22 @@ void TexelEye::see(const TexelRays& texels, const Vec3d& position, std::span<See
   add_background(texels, position, out);
 }
 
-std::optional<Map> sky_of(const World* background, const MapFrame& frame, const Monitor& monitor) {
+std::optional<FineSky> sky_of(const World* background, const MapFrame& frame, int samples,
+                              const Monitor& monitor) {
   if (background == nullptr || background->proxy().shape != Proxy::Shape::far) return std::nullopt;
-  Map sky(frame.parameterization, frame.size.width, frame.size.height, background->map().channels());
-  sky.orientation = frame.orientation;
-  ResampleOptions options;
-  options.monitor = monitor;
-  resample(background->map(), sky, options);
+  const auto made = [&](int finer, const Monitor& part) {
+    Map sky(frame.parameterization, finer * frame.size.width, finer * frame.size.height,
+            background->map().channels());
+    sky.orientation = frame.orientation;
+    ResampleOptions options;
+    options.monitor = part;
+    resample(background->map(), sky, options);
+    return sky;
+  };
+  FineSky sky{made(1, part_of(monitor, 0, 0.3)), std::nullopt};
+  const std::int64_t texels = static_cast<std::int64_t>(frame.parameterization.charts()) * frame.size.width *
+                              frame.size.height * samples * samples;
+  if (texels <= kMostSkyTexels) sky.rays = made(samples, part_of(monitor, 0.3, 1));
   return sky;
 }
 

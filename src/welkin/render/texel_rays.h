@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,9 @@ std::vector<TexelBlock> texel_blocks(int charts, ChartSize size, int samples);
 
 /// The rays of a block's texels, row by row, samples² of each. They depend on no position.
 struct TexelRays {
-  std::size_t per_texel = 0;
+  TexelBlock block;             ///< which
+  int samples = 0;              ///< rays of a texel along each axis
+  std::size_t per_texel = 0;    ///< samples²
   std::vector<RaySpread> rays;  ///< from the origin
   std::vector<float> weights;   ///< those of a texel add up to 1
   std::vector<bool> valid;      ///< of each texel: false where its centre is no position, its weights 0
@@ -38,10 +41,21 @@ struct SeenTexel {
   bool all_sky = false;    ///< no surface: the background isn't in `radiance`
 };
 
+/// A background that is infinitely far, as texels and as rays see it.
+struct FineSky {
+  Map texels;               ///< means over the texels of a frame
+  std::optional<Map> rays;  ///< and over the cells of each texel's rays, `samples` of them a side; none where
+                            ///< there would be over 2²² of them
+};
+/// None where there is no background, or it isn't infinitely far.
+std::optional<FineSky> sky_of(const World* background, const MapFrame& frame, int samples,
+                              const Monitor& monitor = {});
+
 /// Sees texels, those of one thread at a time.
 class TexelEye {
  public:
-  TexelEye(const ShadedScene& seen, double farthest) : seen_(seen), farthest_(farthest) {}
+  /// `sky` is null or outlives it.
+  TexelEye(const ShadedScene& seen, const FineSky* sky, double farthest, bool shade_once);
 
   /// One of each texel, from a place.
   void see(const TexelRays& texels, const Vec3d& position, std::span<SeenTexel> out);
@@ -54,12 +68,25 @@ class TexelEye {
     float near;
   };
 
+  /// What rays of a texel meet that is shaded once.
+  struct Group {
+    std::uint32_t instance;
+    Vec3<float> across;  ///< of unit length
+    float distance;
+    std::size_t surface;
+  };
+
   void trace(const TexelRays& texels, const Vec3d& position, bool first, std::span<SeenTexel> out);
+  bool joins_group(const Hit& hit, const Vec3<float>& across, float weight);
   void shade(std::span<SeenTexel> out);
   void add_background(const TexelRays& texels, const Vec3d& position, std::span<SeenTexel> out);
 
   ShadedScene seen_;
+  const FineSky* sky_;
   double farthest_;
+  bool shade_once_;
+  std::vector<bool> opaque_, two_sided_;  // of each instance
+  std::vector<Group> groups_;             // of the texel
   std::vector<Way> ways_, missed_;
   std::vector<Ray> traced_;
   std::vector<Hit> hits_;
@@ -68,8 +95,5 @@ class TexelEye {
   std::vector<std::uint32_t> texels_;  // of each surface
   std::vector<Rgb> radiance_;
 };
-
-/// A background's means over all texels; none where it isn't infinitely far.
-std::optional<Map> sky_of(const World* background, const MapFrame& frame, const Monitor& monitor = {});
 
 }  // namespace welkin::scene

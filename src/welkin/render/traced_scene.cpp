@@ -215,7 +215,8 @@ RTCRayHit embree_ray_hit(const Ray& ray) {
 
 Hit hit_of(const RTCRayHit& both) {
   if (both.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {both.ray.tfar, both.hit.geomID, both.hit.primID, both.hit.u, both.hit.v};
+  return {both.ray.tfar, both.hit.geomID, both.hit.primID,
+          both.hit.u,    both.hit.v,      {both.hit.Ng_x, both.hit.Ng_y, both.hit.Ng_z}};
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ struct Hit {
   std::uint32_t triangle = 0;                               ///< of the mesh
   float b1 = 0;                                             ///< weight of the triangle's second vertex
   float b2 = 0;                                             ///< weight of its third
+  Vec3<float> across = {0, 0, 0};  ///< across the triangle, away from its back, of any length
 
   /// Whether there is anything.
   explicit operator bool() const { return distance < std::numeric_limits<float>::infinity(); }
