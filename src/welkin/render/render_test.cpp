@@ -148,6 +148,22 @@ TEST(Render, CameraThatSeesAllSeesAll) {
   EXPECT_GT(inside, 250);
 }
 
+// A ball turned about its own middle is the same ball; moved aside it is where it was moved.
+TEST(TracedScene, InstancesStandWhereTheyAreMoved) {
+  const TracedScene still(ball(64));
+  const World world(synth_map("studio"));
+  const auto normals = make_shading("normals", {world});
+  const Image before = render(still, ball_camera(32), world, *normals, {.background = false});
+  const Image turned = render(still.moved(turned_places(still.scene(), 90)), ball_camera(32), world, *normals,
+                              {.background = false});
+  EXPECT_LT(relative_error(turned, before), 1e-3);
+  const TracedScene aside = still.moved({{{}, {10, 0, 0}}});
+  EXPECT_TRUE(aside.closest(Ray{{10, 0, -4}, {0, 0, 1}}));
+  EXPECT_FALSE(aside.closest(Ray{{0, 0, -4}, {0, 0, 1}}));
+  EXPECT_TRUE(still.occluded(Ray{{0, 0, -4}, {0, 0, 1}}));
+  EXPECT_THROW(still.moved({}), Error);
+}
+
 TEST(Render, RefusesWhatMakesNoSense) {
   const World world(synth_map("studio"));
   EXPECT_THROW(make_shading("miror", {world}), Error);

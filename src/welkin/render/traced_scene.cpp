@@ -44,11 +44,10 @@ struct WorldMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-WorldMesh world_mesh(const Scene& scene, const Instance& instance) {
+WorldMesh world_mesh(const Scene& scene, const Instance& instance, const Transform& to) {
   const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
   const int material = instance.material >= 0 ? instance.material : mesh.material;
   WorldMesh world{&mesh, &scene.materials[static_cast<std::size_t>(material)], {}, {}, {}, mesh.triangles};
-  const Transform& to = instance.to_world;
   for (const Float3& p : mesh.positions) world.positions.push_back(to_float(point_to(to, to_double(p))));
   world.positions.push_back({0, 0, 0});
   for (const Float3& n : mesh.normals)
@@ -70,14 +69,23 @@ WorldMesh world_mesh(const Scene& scene, const Instance& instance) {
 
 class TracedScene::State {
  public:
-  explicit State(Scene given);
+  /// What scenes have in common whose instances stand elsewhere.
+  struct Shared {
+    explicit Shared(Scene given) : scene(std::move(given)) {
+      scene.check();
+      for (const Picture& picture : scene.pictures) textures.emplace_back(picture);
+    }
+    Scene scene;
+    std::vector<Texture> textures;
+  };
+
+  State(std::shared_ptr<const Shared> given, const std::vector<Transform>& to_world);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  Scene scene;
+  std::shared_ptr<const Shared> shared;
   std::vector<WorldMesh> meshes;  // one an instance
-  std::vector<Texture> textures;
   const EmbreeFunctions& rt = embree();
   RTCDevice device = nullptr;
   RTCScene traced = nullptr;
@@ -90,16 +98,16 @@ class TracedScene::State {
   void bend_normal(Surface& at, const std::array<std::array<double, 2>, 3> (&uv)[2]) const;
 };
 
-TracedScene::State::State(Scene given) : scene(std::move(given)) {
-  scene.check();
+TracedScene::State::State(std::shared_ptr<const Shared> given, const std::vector<Transform>& to_world)
+    : shared(std::move(given)) {
+  const Scene& scene = shared->scene;
   if (triangle_count(scene) > kMostTriangles)
     throw Error(ErrorKind::too_large, "the instances have more than 2³¹ triangles altogether");
-  for (const Picture& picture : scene.pictures) textures.emplace_back(picture);
-  for (const Instance& instance : scene.instances) meshes.push_back(world_mesh(scene, instance));
-  if (const auto box = bounds_of(scene)) {
-    for (const double side :
-         {box->least.x, box->least.y, box->least.z, box->most.x, box->most.y, box->most.z})
-      largest = std::max(largest, std::abs(side));
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    meshes.push_back(world_mesh(scene, scene.instances[i], to_world[i]));
+  for (const WorldMesh& mesh : meshes) {
+    for (const Float3& p : mesh.positions)
+      largest = std::max<double>({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
   device = rt.new_device(nullptr);
   if (device == nullptr) throw Error(ErrorKind::system, "Embree could not start");
@@ -140,7 +148,7 @@ std::array<float, 4> TracedScene::State::look_up(const PictureUse& use,
   std::array<double, 2> at = turned(set[0]);
   at[0] += use.offset[0];
   at[1] += use.offset[1];
-  return textures[static_cast<std::size_t>(use.picture)].mean(at, turned(set[1]), turned(set[2]));
+  return shared->textures[static_cast<std::size_t>(use.picture)].mean(at, turned(set[1]), turned(set[2]));
 }
 
 MaterialPoint TracedScene::State::material_at(const Material& material, const Surface&,
@@ -183,10 +191,35 @@ void TracedScene::State::bend_normal(Surface& at, const std::array<std::array<do
   at.normal = normalize(bent.x * at.tangent + bent.y * at.bitangent + bent.z * at.normal);
 }
 
-TracedScene::TracedScene(Scene scene) : state_(std::make_shared<const State>(std::move(scene))) {}
+namespace {
+
+std::vector<Transform> places_of(const Scene& scene) {
+  std::vector<Transform> places;
+  for (const Instance& instance : scene.instances) places.push_back(instance.to_world);
+  return places;
+}
+
+}  // namespace
+
+TracedScene::TracedScene(Scene scene) {
+  auto shared = std::make_shared<const State::Shared>(std::move(scene));
+  state_ = std::make_shared<const State>(shared, places_of(shared->scene));
+}
+
+TracedScene TracedScene::moved(const std::vector<Transform>& to_world) const {
+  require(to_world.size() == scene().instances.size(), "there is a place for each instance");
+  for (const Transform& place : to_world) {
+    const double volume = determinant(place.linear);
+    require(std::isfinite(volume) && volume != 0 && std::isfinite(length(place.origin)),
+            "an instance stands somewhere, and has a volume");
+  }
+  TracedScene other(*this);
+  other.state_ = std::make_shared<const State>(state_->shared, to_world);
+  return other;
+}
 
 const Scene& TracedScene::scene() const {
-  return state_->scene;
+  return state_->shared->scene;
 }
 
 namespace {

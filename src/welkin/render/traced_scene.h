@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "welkin/base/export.h"
 #include "welkin/render/surface.h"
@@ -58,8 +59,12 @@ class WELKIN_API TracedScene {
   /// instances, (unsupported) where Embree isn't installed.
   explicit TracedScene(Scene scene);
 
-  /// The scene.
+  /// The scene, as it was given.
   const Scene& scene() const;
+
+  /// The same scene whose instances stand elsewhere, one place for each; pictures are shared. Throws Error
+  /// (bad_request) for another number of places, and for such as have no volume.
+  TracedScene moved(const std::vector<Transform>& to_world) const;
 
   /// The first thing along each ray, in the calling thread. There is room for as many hits.
   void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence = Coherence::none) const;

@@ -122,6 +122,16 @@ std::optional<Bounds> bounds_of(const Scene& scene) {
   return box;
 }
 
+std::vector<Transform> turned_places(const Scene& scene, double degrees) {
+  std::vector<Transform> places;
+  const auto box = bounds_of(scene);
+  const Vec3d middle = box ? 0.5 * (box->least + box->most) : Vec3d{0, 0, 0};
+  const Matrix3 turn = rotation_from_yaw_pitch_roll(degrees, 0, 0);
+  const Transform about{turn, middle - turn * middle};
+  for (const Instance& instance : scene.instances) places.push_back(about * instance.to_world);
+  return places;
+}
+
 std::uint64_t triangle_count(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Instance& instance : scene.instances)

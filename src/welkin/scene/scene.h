@@ -153,6 +153,10 @@ struct Bounds {
 /// None of a scene without triangles.
 WELKIN_API std::optional<Bounds> bounds_of(const Scene& scene);
 
+/// The places of all instances when the scene has turned by an angle about the vertical through the middle of
+/// its bounds, as on a turntable: degrees, counterclockwise seen from above.
+WELKIN_API std::vector<Transform> turned_places(const Scene& scene, double degrees);
+
 /// Triangles of all instances.
 WELKIN_API std::uint64_t triangle_count(const Scene& scene);
 
