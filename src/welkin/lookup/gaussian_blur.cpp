@@ -25,29 +25,43 @@ struct Symmetric {
 /// Which texels of a grid a blurred one is made of, and how.
 struct Window {
   BlurWeights weights;
+  std::size_t row = 0, rows = 0;  ///< the first and the number of them
+};
+
+/// Windows of neighbours, their rows and weights one after the other.
+struct Block {
   std::vector<BlurRow> rows;
   std::size_t total = 0;  ///< weights, padding included
+  std::vector<float> first, second;
 };
 
 class Windows {
  public:
-  Windows(const GaussianBlur& blur, int size, int margin) : blur_(blur), size_(size), margin_(margin) {
+  /// `bright`: null for windows of the farthest reach.
+  Windows(const GaussianBlur& blur, int size, int margin, const BrightTiles* bright)
+      : blur_(blur), bright_(bright), farthest_(blur.reach(blur.brightest)), per_angle_(size / (kPi / 2)) {
     for (std::size_t i = 0; i < 2; ++i) kappa_[i] = vmf_concentration(std::sqrt(blur.variances[i]));
+    for (int k = 0; k < blur.size + 2 * blur.margin; ++k) {
+      const double angle = ((k - blur.margin + 0.5) / blur.size - 0.5) * (kPi / 2);
+      places_.push_back({std::tan(angle), angle * per_angle_ + 0.5 * size + margin - 0.5});
+    }
   }
 
-  /// Of the texel (x, y) of the results, counted from their margin's first.
-  void make(int x, int y, Window& window) const {
-    const auto angle = [&](int k) { return ((k - blur_.margin + 0.5) / blur_.size - 0.5) * (kPi / 2); };
-    const double a = angle(x), b = angle(y), s = std::tan(a), t = std::tan(b);
-    const double per_angle = size_ / (kPi / 2), middle = 0.5 * size_ + margin_ - 0.5;
-    const double at_x = a * per_angle + middle, at_y = b * per_angle + middle;
+  /// Adds the rows of the texel (x, y) of the results, counted from their margin's first.
+  Window append(int x, int y, Block& block) const {
+    const auto [s, at_x] = places_[static_cast<std::size_t>(x)];
+    const auto [t, at_y] = places_[static_cast<std::size_t>(y)];
 
     // The metric, in texels of the grid.
-    const double r2 = 1 + s * s + t * t, across = (1 + s * s) / per_angle, down = (1 + t * t) / per_angle;
+    const double r2 = 1 + s * s + t * t, across = (1 + s * s) / per_angle_, down = (1 + t * t) / per_angle_;
     const Symmetric metric{across * across * (1 + t * t) / (r2 * r2), -across * down * s * t / (r2 * r2),
                            down * down * (1 + s * s) / (r2 * r2)};
-    window.weights = {
-        static_cast<float>(s), static_cast<float>(t), static_cast<float>(at_x), static_cast<float>(at_y), {}};
+    Window window{{static_cast<float>(s),
+                   static_cast<float>(t),
+                   static_cast<float>(at_x),
+                   static_cast<float>(at_y),
+                   {}},
+                  block.rows.size()};
     Symmetric shape{};
     for (std::size_t i = 0; i < 2; ++i) {
       const double variance = blur_.variances[i];
@@ -62,11 +76,16 @@ class Windows {
     }
 
     // The ellipse gᵀ shape g = reach² of the wider one, row by row.
-    const double reach2 = blur_.reach * blur_.reach;
     const Symmetric covariance = shape.inverse();
-    const double high = blur_.reach * std::sqrt(covariance.yy);
-    window.rows.clear();
-    window.total = 0;
+    const double wide = std::sqrt(covariance.xx), tall = std::sqrt(covariance.yy);
+    double reach = farthest_;
+    if (bright_ != nullptr) {
+      const auto first = [&](double at, double half) { return static_cast<int>(at - reach * half); };
+      const auto last = [&](double at, double half) { return static_cast<int>(at + reach * half) + 1; };
+      reach = std::min(reach, blur_.reach(double{bright_->most(first(at_x, wide), last(at_x, wide),
+                                                               first(at_y, tall), last(at_y, tall))}));
+    }
+    const double reach2 = reach * reach, high = reach * tall;
     for (int row = static_cast<int>(std::ceil(at_y - high)); row <= static_cast<int>(std::floor(at_y + high));
          ++row) {
       const double off = row - at_y, centre = -shape.xy * off / shape.xx;
@@ -76,14 +95,22 @@ class Windows {
       const int first = static_cast<int>(std::ceil(at_x + centre - half));
       const int last = static_cast<int>(std::floor(at_x + centre + half));
       if (last < first) continue;
-      window.rows.push_back({first, row, last - first + 1, window.total});
-      window.total += static_cast<std::size_t>(last - first + 1 + 15) / 16 * 16;
+      block.rows.push_back({first, row, last - first + 1, block.total});
+      block.total += static_cast<std::size_t>(last - first + 1 + 15) / 16 * 16;
     }
+    window.rows = block.rows.size() - window.row;
+    return window;
   }
 
  private:
+  struct Place {
+    double tangent, texel;  ///< in the face's plane, in the grid
+  };
+
   const GaussianBlur& blur_;
-  int size_, margin_;
+  const BrightTiles* bright_;
+  double farthest_, per_angle_;
+  std::vector<Place> places_;  ///< of the results' columns or rows
   double kappa_[2];
 };
 
@@ -103,22 +130,25 @@ std::array<MirrorImage, 8> images(int side) {
 
 }  // namespace
 
+double GaussianBlur::reach(double brightness) const {
+  // Compared with a tenth of the mean.
+  return std::sqrt(2 * std::log(10 * std::clamp(brightness, 1.0, brightest) / tail));
+}
+
 int margin_needed(const GaussianBlur& blur, int size) {
-  const Windows windows(blur, size, 0);
-  Window window;
+  const Windows windows(blur, size, 0, nullptr);
+  Block block;
+  for (int x = 0; x <= blur.margin + blur.size / 2; ++x) windows.append(x, 0, block);
   int least = 0;
-  for (int x = 0; x <= blur.margin + blur.size / 2; ++x) {
-    windows.make(x, 0, window);
-    for (const BlurRow& row : window.rows) least = std::min({least, row.x, row.y});
-  }
+  for (const BlurRow& row : block.rows) least = std::min({least, row.x, row.y});
   return -least;
 }
 
-void run_blur(const FaceGrid& masses, const GaussianBlur& blur, FaceGrid& first_map, FaceGrid& second_map,
-              const Monitor& monitor) {
+void run_blur(const FaceGrid& masses, const BrightTiles& bright, const GaussianBlur& blur,
+              FaceGrid& first_map, FaceGrid& second_map, const Monitor& monitor) {
   FaceGrid* const results[2] = {&first_map, &second_map};
   const int side = first_map.side(), source_side = masses.side();
-  const Windows windows(blur, masses.size(), masses.margin());
+  const Windows windows(blur, masses.size(), masses.margin(), &bright);
   const std::array<MirrorImage, 8> from = images(source_side), to = images(side);
 
   // Tangents of the grid's columns; a pack may read past the last.
@@ -127,48 +157,69 @@ void run_blur(const FaceGrid& masses, const GaussianBlur& blur, FaceGrid& first_
     tangents[static_cast<std::size_t>(i)] =
         static_cast<float>(std::tan(((i - masses.margin() + 0.5) / masses.size() - 0.5) * (kPi / 2)));
 
-  // An eighth of the square: x ≤ y ≤ half.
   const GaussianKernels& kernels = gaussian_kernels();
-  parallel_for((side + 1) / 2,
-               [&](int y) {
-                 Window window;
-                 std::vector<float> first, second;
-                 for (int x = 0; x <= y; ++x) {
-                   windows.make(x, y, window);
-                   first.resize(window.total + 16);
-                   second.resize(window.total + 16);
-                   kernels.weigh(window.weights, tangents.data(), window.rows.data(), window.rows.size(),
-                                 first.data(), second.data());
-                   for (int pair = 0; pair < 3; ++pair) {
-                     for (std::size_t four = 0; four < 8; four += 4) {
-                       const float* begin[4];
-                       std::ptrdiff_t across[4], down[4];
-                       for (std::size_t k = 0; k < 4; ++k) {
-                         begin[k] = masses.pair(pair) + from[four + k].first;
-                         across[k] = from[four + k].across;
-                         down[k] = from[four + k].down;
-                       }
-                       alignas(64) float sums[4 * 2 * FaceGrid::kPair];
-                       kernels.apply(window.rows.data(), window.rows.size(), first.data(), second.data(),
-                                     begin, across, down, sums);
-                       for (std::size_t k = 0; k < 4; ++k) {
-                         const MirrorImage& image = to[four + k];
-                         const std::ptrdiff_t at = image.first + x * image.across + y * image.down;
-                         for (std::size_t i = 0; i < 2; ++i) {
-                           const float* sum = sums + (2 * k + i) * FaceGrid::kPair;
-                           float* value = results[i]->pair(pair) + at;
-                           for (std::size_t f = 0; f < FaceGrid::kPair; f += FaceGrid::kValues) {
-                             const float inverse = sum[f + 3] > 0 ? 1 / sum[f + 3] : 0;
-                             for (std::size_t c = 0; c < FaceGrid::kValues; ++c)
-                               value[f + c] = sum[f + c] * inverse;
-                           }
-                         }
-                       }
-                     }
-                   }
-                 }
-               },
-               monitor);
+  // The sums of a window, in four images on a pair of faces.
+  const auto sum_up = [&](const Block& block, const Window& window, int x, int y, int pair,
+                          std::size_t four) {
+    const float* begin[4];
+    std::ptrdiff_t across[4], down[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      begin[k] = masses.pair(pair) + from[four + k].first;
+      across[k] = from[four + k].across;
+      down[k] = from[four + k].down;
+    }
+    alignas(64) float sums[4 * 2 * FaceGrid::kPair];
+    kernels.apply(block.rows.data() + window.row, window.rows, block.first.data(), block.second.data(), begin,
+                  across, down, sums);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const MirrorImage& image = to[four + k];
+      const std::ptrdiff_t at = image.first + x * image.across + y * image.down;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const float* sum = sums + (2 * k + i) * FaceGrid::kPair;
+        float* value = results[i]->pair(pair) + at;
+        for (std::size_t f = 0; f < FaceGrid::kPair; f += FaceGrid::kValues) {
+          const float inverse = sum[f + 3] > 0 ? 1 / sum[f + 3] : 0;
+          for (std::size_t c = 0; c < FaceGrid::kValues; ++c) value[f + c] = sum[f + c] * inverse;
+        }
+      }
+    }
+  };
+
+  // An eighth of the square: x ≤ y ≤ half. By blocks, in one image after the other: neighbours see nearly the
+  // same texels, which stay in the nearest cache.
+  constexpr int kBlock = 8;
+  const int end = (side + 1) / 2, blocks = (end + kBlock - 1) / kBlock;
+  parallel_for(
+      blocks * (blocks + 1) / 2,
+      [&](int job) {
+        int row = 0;
+        while (job > row) job -= ++row;
+        struct Place {
+          int x, y;
+          Window window;
+        };
+        std::array<Place, kBlock * kBlock> places;
+        std::size_t count = 0;
+        Block block;
+        for (int y = row * kBlock; y < std::min(end, (row + 1) * kBlock); ++y) {
+          for (int x = job * kBlock; x < std::min(y + 1, (job + 1) * kBlock); ++x)
+            places[count++] = {x, y, windows.append(x, y, block)};
+        }
+        block.first.resize(block.total + 16);
+        block.second.resize(block.total + 16);
+        for (std::size_t i = 0; i < count; ++i) {
+          const Window& window = places[i].window;
+          kernels.weigh(window.weights, tangents.data(), block.rows.data() + window.row, window.rows,
+                        block.first.data(), block.second.data());
+        }
+        for (int pair = 0; pair < 3; ++pair) {
+          for (std::size_t four = 0; four < 8; four += 4) {
+            for (std::size_t i = 0; i < count; ++i)
+              sum_up(block, places[i].window, places[i].x, places[i].y, pair, four);
+          }
+        }
+      },
+      monitor);
 }
 
 }  // namespace welkin

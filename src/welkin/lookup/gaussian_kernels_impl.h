@@ -42,6 +42,7 @@ struct Eight {
     return r;
   }
   void load_sums(const float* from) { std::memcpy(v, from, sizeof v); }
+  void keep() {}
   void store_sums(float* to) const { std::memcpy(to, v, sizeof v); }
 };
 
@@ -57,6 +58,8 @@ struct Eight<xsimd::fma3<xsimd::avx2>> {
   void add(float weight, const Eight& b) { v = _mm256_fmadd_ps(_mm256_set1_ps(weight), b.v, v); }
   Eight times(float factor) const { return {_mm256_mul_ps(_mm256_set1_ps(factor), v)}; }
   void load_sums(const float* from) { v = _mm256_loadu_ps(from); }
+  /// Keeps a compiler from loading once for each use.
+  void keep() { __asm__("" : "+x"(v)); }
   void store_sums(float* to) const { _mm256_storeu_ps(to, v); }
 };
 #endif
@@ -253,6 +256,7 @@ struct GaussianOf {
         for (int k = 0; k < 4; ++k) {
           Eight<Wide> value;
           value.load_sums(at[k]);
+          value.keep();
           a[k].add(wa, value);
           b[k].add(wb, value);
           at[k] += across[k];

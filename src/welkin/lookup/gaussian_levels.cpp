@@ -227,6 +227,14 @@ void copy_channels(const Map& map, int first, FaceGrid& grid) {
   }
 }
 
+/// Of three channels from `first` on: 1 over the size of each; 0 for one that is not there.
+std::array<float, 3> inverse_sizes(const std::vector<ChannelScale>& scales, int first) {
+  std::array<float, 3> inverse{};
+  const std::size_t from = static_cast<std::size_t>(first);
+  for (std::size_t c = 0; c < 3 && from + c < scales.size(); ++c) inverse[c] = 1 / scales[from + c].size;
+  return inverse;
+}
+
 /// How the narrow levels are made: from grids of masses.
 struct BlurPlan {
   std::vector<GaussianBlur> blurs;       ///< of the first intervals
@@ -242,9 +250,11 @@ BlurPlan plan_blurs(const GaussianLevels& levels, const GaussianQuality& quality
   for (const GaussianInterval& interval : levels.intervals) {
     const double wider = double{interval.wider}, narrower = interval.node;
     if (std::sqrt(wider) > quality.handover * levels.texel) break;
-    const double brighter = std::min(contrast, 2 / narrower);
-    const double reach = std::sqrt(2 * std::log(10 * brighter / quality.blur_tail));
-    plan.blurs.push_back({interval.size, PaddedCube::kMargin, {narrower, wider}, reach});
+    plan.blurs.push_back({interval.size,
+                          PaddedCube::kMargin,
+                          {narrower, wider},
+                          std::min(contrast, 2 / narrower),
+                          quality.blur_tail});
     widest.push_back((narrower < levels.texel * levels.texel ? quality.fine_ratio : quality.ratio) *
                      std::sqrt(narrower));
   }
@@ -261,8 +271,9 @@ BlurPlan plan_blurs(const GaussianLevels& levels, const GaussianQuality& quality
     bool is_near = true;
     for (std::size_t k = 0; k < plan.blurs.size() && is_near; ++k) {
       const GaussianBlur& blur = plan.blurs[k];
-      is_near =
-          kPi / 4 * (1 + 2.0 * blur.margin / blur.size) + blur.reach * std::sqrt(blur.variances[1]) < 1.2;
+      is_near = kPi / 4 * (1 + 2.0 * blur.margin / blur.size) +
+                    blur.reach(blur.brightest) * std::sqrt(blur.variances[1]) <
+                1.2;
       if (!is_near) break;
       plan.margin = std::max(
           plan.margin, whole_units((margin_needed(blur, plan.size >> plan.grids[k]) + 3) << plan.grids[k]));
@@ -358,11 +369,18 @@ GaussianLevels make_gaussian_levels(const Map& map, GaussianAccuracy accuracy, c
   std::vector<double> contrasts(levels.intervals.size());
   for (int first = 0; first < map.channels(); first += 3) {
     std::optional<MassGrid> masses;
-    if (fine > 0) masses.emplace(map, first, plan.size, plan.margin, plan.levels, without_progress(monitor));
+    std::vector<BrightTiles> bright;
+    if (fine > 0) {
+      masses.emplace(map, first, plan.size, plan.margin, plan.levels, without_progress(monitor));
+      for (int k = 0; k < plan.levels; ++k)
+        bright.emplace_back(masses->level(k), inverse_sizes(levels.scales, first));
+    }
     for (std::size_t k = 0; k < levels.intervals.size(); ++k) {
       for (FaceGrid& grid : pair) grid.resize(levels.intervals[k].size, PaddedCube::kMargin);
       if (k < fine) {
-        run_blur(masses->level(plan.grids[k]), plan.blurs[k], pair[0], pair[1], without_progress(monitor));
+        const int grid = plan.grids[k];
+        run_blur(masses->level(grid), bright[static_cast<std::size_t>(grid)], plan.blurs[k], pair[0], pair[1],
+                 without_progress(monitor));
       } else {
         for (std::size_t i = 0; i < 2; ++i) copy_channels(wide[2 * (k - fine) + i], first, pair[i]);
       }
