@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "welkin/base/parallel.h"
 #include "welkin/lookup/cone_reference.h"
@@ -158,9 +159,9 @@ void run_blur(const FaceGrid& masses, const BrightTiles& bright, const GaussianB
         static_cast<float>(std::tan(((i - masses.margin() + 0.5) / masses.size() - 0.5) * (kPi / 2)));
 
   const GaussianKernels& kernels = gaussian_kernels();
-  // The sums of a window, in four images on a pair of faces.
-  const auto sum_up = [&](const Block& block, const Window& window, int x, int y, int pair,
-                          std::size_t four) {
+  // The means over a window, in four images on a pair of faces.
+  const auto average = [&](const Block& block, const Window& window, int x, int y, int pair,
+                           std::size_t four) {
     const float* begin[4];
     std::ptrdiff_t across[4], down[4];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -168,20 +169,15 @@ void run_blur(const FaceGrid& masses, const BrightTiles& bright, const GaussianB
       across[k] = from[four + k].across;
       down[k] = from[four + k].down;
     }
-    alignas(64) float sums[4 * 2 * FaceGrid::kPair];
+    alignas(64) float means[4 * 2 * FaceGrid::kPair];
     kernels.apply(block.rows.data() + window.row, window.rows, block.first.data(), block.second.data(), begin,
-                  across, down, sums);
+                  across, down, means);
     for (std::size_t k = 0; k < 4; ++k) {
       const MirrorImage& image = to[four + k];
       const std::ptrdiff_t at = image.first + x * image.across + y * image.down;
-      for (std::size_t i = 0; i < 2; ++i) {
-        const float* sum = sums + (2 * k + i) * FaceGrid::kPair;
-        float* value = results[i]->pair(pair) + at;
-        for (std::size_t f = 0; f < FaceGrid::kPair; f += FaceGrid::kValues) {
-          const float inverse = sum[f + 3] > 0 ? 1 / sum[f + 3] : 0;
-          for (std::size_t c = 0; c < FaceGrid::kValues; ++c) value[f + c] = sum[f + c] * inverse;
-        }
-      }
+      for (std::size_t i = 0; i < 2; ++i)
+        std::memcpy(results[i]->pair(pair) + at, means + (2 * k + i) * FaceGrid::kPair,
+                    FaceGrid::kPair * sizeof(float));
     }
   };
 
@@ -215,7 +211,7 @@ void run_blur(const FaceGrid& masses, const BrightTiles& bright, const GaussianB
         for (int pair = 0; pair < 3; ++pair) {
           for (std::size_t four = 0; four < 8; four += 4) {
             for (std::size_t i = 0; i < count; ++i)
-              sum_up(block, places[i].window, places[i].x, places[i].y, pair, four);
+              average(block, places[i].window, places[i].x, places[i].y, pair, four);
           }
         }
       },

@@ -60,6 +60,14 @@ struct BlurWeights {
   } gaussians[2];
 };
 
+/// Lines of texels, `step` values from one to the next; the lines `line_step` from each other.
+struct SplineLines {
+  int count;
+  std::ptrdiff_t step;
+  int lines;
+  std::ptrdiff_t line_step;
+};
+
 struct GaussianKernels {
   /// Adds points to the grid, where a face or its margin has them.
   void (*splat)(const MassPoints& points, const FaceNeighbor* neighbors, FaceGrid& grid);
@@ -67,11 +75,17 @@ struct GaussianKernels {
   /// next multiple of kLanes.
   void (*weigh)(const BlurWeights& blur, const float* tangents, const BlurRow* rows, std::size_t count,
                 float* first, float* second);
-  /// Four times the sums of kPair values with both weights: sums[i][2][kPair], texel (x, y) lying at
-  /// from[i] + x · across[i] + y · down[i].
+  /// Four times the means of kPair values with both weights: means[i][2][kPair], texel (x, y) lying at
+  /// from[i] + x · across[i] + y · down[i]. The fourth of kValues is what the others are divided by; they are
+  /// 0 where that is.
   void (*apply)(const BlurRow* rows, std::size_t count, const float* first, const float* second,
                 const float* const* from, const std::ptrdiff_t* across, const std::ptrdiff_t* down,
-                float* sums);
+                float* means);
+
+  /// From samples to coefficients of the quadratic B-spline whose values at the texels are
+  /// (c₋₁ + 6c₀ + c₁)/8, in place, along `lines` lines of `count` texels of a pair of faces. Past the ends
+  /// samples are taken to stay as they are there.
+  void (*to_spline)(float* values, const SplineLines& lines);
 
   /// Directions of a cone's taps, to x, y, z from `at` on; kLanes − 1 more values may be written.
   void (*spread)(const GaussianSpread& cone, GaussianTaps& taps, std::size_t at);
@@ -81,8 +95,11 @@ struct GaussianKernels {
   /// the interval's first texel, `pitch` the values of a row. Sums are written up to the next multiple of 8.
   void (*gather)(const GaussianTaps& taps, std::size_t from, std::size_t to, const std::uint16_t* values,
                  std::size_t width, std::size_t pitch, float* sums);
-  /// Numbers below 65504 to the nearest half.
-  void (*to_halves)(const float* from, std::uint16_t* to, std::size_t count);
+  /// to[texel][8]: of each texel three values of one grid and three of another, times `factors`, the fourth
+  /// of which is 0, as halves; and two of anything. Texels lie kPair apart in the grids. Returns the largest
+  /// absolute value, which must be below 65504.
+  float (*to_halves)(const float* a, const float* b, const float* factors, std::size_t texels,
+                     std::uint16_t* to);
 };
 
 const GaussianKernels& gaussian_kernels_baseline();

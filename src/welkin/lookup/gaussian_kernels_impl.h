@@ -43,6 +43,12 @@ struct Eight {
   }
   void load_sums(const float* from) { std::memcpy(v, from, sizeof v); }
   void keep() {}
+  /// Each four over their last; 0 where that isn't positive.
+  Eight over_last() const {
+    Eight r;
+    for (int i = 0; i < 8; ++i) r.v[i] = v[i | 3] > 0 ? v[i] / v[i | 3] : 0;
+    return r;
+  }
   void store_sums(float* to) const { std::memcpy(to, v, sizeof v); }
 };
 
@@ -60,6 +66,10 @@ struct Eight<xsimd::fma3<xsimd::avx2>> {
   void load_sums(const float* from) { v = _mm256_loadu_ps(from); }
   /// Keeps a compiler from loading once for each use.
   void keep() { __asm__("" : "+x"(v)); }
+  Eight over_last() const {
+    const __m256 last = _mm256_permute_ps(v, 0xff);
+    return {_mm256_and_ps(_mm256_cmp_ps(last, _mm256_setzero_ps(), _CMP_GT_OQ), _mm256_div_ps(v, last))};
+  }
   void store_sums(float* to) const { _mm256_storeu_ps(to, v); }
 };
 #endif
@@ -243,7 +253,7 @@ struct GaussianOf {
 
   static void apply(const BlurRow* rows, std::size_t count, const float* first, const float* second,
                     const float* const* from, const std::ptrdiff_t* across, const std::ptrdiff_t* down,
-                    float* sums) {
+                    float* means) {
     Eight<Wide> a[4], b[4];
     for (int k = 0; k < 4; ++k) a[k] = b[k] = Eight<Wide>::zero();
     for (std::size_t r = 0; r < count; ++r) {
@@ -264,35 +274,93 @@ struct GaussianOf {
       }
     }
     for (int k = 0; k < 4; ++k) {
-      a[k].store_sums(sums + static_cast<std::size_t>(k) * 2 * FaceGrid::kPair);
-      b[k].store_sums(sums + static_cast<std::size_t>(k) * 2 * FaceGrid::kPair + FaceGrid::kPair);
+      a[k].over_last().store_sums(means + static_cast<std::size_t>(k) * 2 * FaceGrid::kPair);
+      b[k].over_last().store_sums(means + static_cast<std::size_t>(k) * 2 * FaceGrid::kPair +
+                                  FaceGrid::kPair);
     }
   }
 
-  static void to_halves(const float* from, std::uint16_t* to, std::size_t count) {
-    std::size_t i = 0;
+  /// So many lines side by side, for their recursions' latency. Unser, Aldroubi & Eden 1993, part I; the pole
+  /// is √8 − 3.
+  template <int kLines>
+  static void to_spline_lines(float* values, const SplineLines& lines) {
+    constexpr float kPole = -0.17157287525381f;
+    constexpr float kStart = 8 / (1 - kPole), kTurn = -kPole / (1 - kPole);
+    // Before the first and after the last, what samples that stay as they are there would have made.
+    const auto steady = [&](float factor, int i) {
+      Eight<Wide> sample;
+      sample.load_sums(values + i * lines.line_step);
+      return sample.times(factor);
+    };
+    const auto step = [&](float of_sample, Eight<Wide>& last, int i) {
+      Eight<Wide> here = steady(of_sample, i);
+      here.add(kPole, last);
+      here.store_sums(values + i * lines.line_step);
+      last = here;
+    };
+    Eight<Wide> last[kLines];
+    for (int i = 0; i < kLines; ++i) last[i] = steady(kStart, i);
+    for (int k = 0; k < lines.count; ++k, values += lines.step) {
+      for (int i = 0; i < kLines; ++i) step(8, last[i], i);
+    }
+    values -= lines.step;
+    for (int i = 0; i < kLines; ++i) last[i] = steady(kTurn, i);
+    for (int k = 0; k < lines.count; ++k, values -= lines.step) {
+      for (int i = 0; i < kLines; ++i) step(-kPole, last[i], i);
+    }
+  }
+  static void to_spline(float* values, const SplineLines& lines) {
+    int i = 0;
+    for (; i + 8 <= lines.lines; i += 8) to_spline_lines<8>(values + i * lines.line_step, lines);
+    for (; i < lines.lines; ++i) to_spline_lines<1>(values + i * lines.line_step, lines);
+  }
+
+  static std::uint16_t half_of(float value) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t magnitude = bits & 0x7fffffffu;
+    std::uint32_t half;
+    if (magnitude < 0x38800000u) {
+      // Subnormal: adding ½ rounds the last bits away, to even.
+      half = std::bit_cast<std::uint32_t>(std::bit_cast<float>(magnitude) + 0.5f) - 0x3f000000u;
+    } else {
+      half = (magnitude - 0x38000000u + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;
+    }
+    return static_cast<std::uint16_t>(half | (bits & 0x80000000u) >> 16);
+  }
+
+  static float to_halves(const float* a, const float* b, const float* factors, std::size_t texels,
+                         std::uint16_t* to) {
 #ifdef __F16C__
-    for (; i + 8 <= count; i += 8) {
-      _mm_storeu_si128(reinterpret_cast<__m128i*>(to + i),
-                       _mm256_cvtps_ph(_mm256_loadu_ps(from + i), _MM_FROUND_TO_NEAREST_INT));
+    const __m256i order = _mm256_setr_epi32(0, 1, 2, 4, 5, 6, 7, 7);
+    const __m256 factor = _mm256_broadcast_ps(reinterpret_cast<const __m128*>(factors));
+    __m256 most = _mm256_setzero_ps();
+    for (std::size_t i = 0; i < texels; ++i, a += FaceGrid::kPair, b += FaceGrid::kPair, to += 8) {
+      const __m256 both = _mm256_mul_ps(_mm256_set_m128(_mm_loadu_ps(b), _mm_loadu_ps(a)), factor);
+      most = _mm256_max_ps(most, _mm256_andnot_ps(_mm256_set1_ps(-0.0f), both));
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(to),
+                       _mm256_cvtps_ph(_mm256_permutevar8x32_ps(both, order), _MM_FROUND_TO_NEAREST_INT));
+    }
+    alignas(32) float lanes[8];
+    _mm256_store_ps(lanes, most);
+#else
+    float lanes[8] = {};
+    for (std::size_t i = 0; i < texels; ++i, a += FaceGrid::kPair, b += FaceGrid::kPair, to += 8) {
+      for (int c = 0; c < 3; ++c) {
+        const float first = a[c] * factors[c], second = b[c] * factors[c];
+        lanes[c] = std::fmax(lanes[c], std::fmax(std::fabs(first), std::fabs(second)));
+        to[c] = half_of(first);
+        to[3 + c] = half_of(second);
+      }
     }
 #endif
-    for (; i < count; ++i) {
-      const std::uint32_t bits = std::bit_cast<std::uint32_t>(from[i]);
-      const std::uint32_t magnitude = bits & 0x7fffffffu;
-      std::uint32_t half;
-      if (magnitude < 0x38800000u) {
-        // Subnormal: adding ½ rounds the last bits away, to even.
-        half = std::bit_cast<std::uint32_t>(std::bit_cast<float>(magnitude) + 0.5f) - 0x3f000000u;
-      } else {
-        half = (magnitude - 0x38000000u + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;
-      }
-      to[i] = static_cast<std::uint16_t>(half | (bits & 0x80000000u) >> 16);
-    }
+    float largest = 0;
+    for (const float lane : lanes) largest = lane > largest ? lane : largest;
+    return largest;
   }
 
   static const GaussianKernels& table() {
-    static constexpr GaussianKernels kernels{&splat, &weigh, &apply, &spread, &locate, &gather, &to_halves};
+    static constexpr GaussianKernels kernels{&splat,  &weigh,  &apply,  &to_spline,
+                                             &spread, &locate, &gather, &to_halves};
     return kernels;
   }
 };

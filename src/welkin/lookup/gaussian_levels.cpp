@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -30,35 +30,6 @@ constexpr double kNode = 0.70710678118654752;
 std::array<double, 2> nodes_of(double lowest, double highest) {
   const double middle = 0.5 * (lowest + highest), away = kNode * 0.5 * (highest - lowest);
   return {middle - away, middle + away};
-}
-
-/// From samples to coefficients of the quadratic B-spline whose values at the texels are (c₋₁ + 6c₀ + c₁)/8
-/// (Unser, Aldroubi & Eden 1993, part I; pole √8 − 3), along `count` values `step` apart, `lanes` of them
-/// side by side. Past the ends samples are taken to stay as they are there.
-void to_spline(float* values, int count, std::ptrdiff_t step, int lanes) {
-  constexpr float kPole = -0.17157287525381f;
-  constexpr float kStart = 8 / (1 - kPole), kTurn = -kPole / (1 - kPole);
-  for (int i = 0; i < lanes; ++i) values[i] *= kStart;
-  for (int k = 1; k < count; ++k) {
-    float* here = values + k * step;
-    const float* before = here - step;
-    for (int i = 0; i < lanes; ++i) here[i] = 8 * here[i] + kPole * before[i];
-  }
-  float* last = values + (count - 1) * step;
-  for (int i = 0; i < lanes; ++i) last[i] *= kTurn;
-  for (int k = count - 2; k >= 0; --k) {
-    float* here = values + k * step;
-    const float* after = here + step;
-    for (int i = 0; i < lanes; ++i) here[i] = kPole * (after[i] - here[i]);
-  }
-}
-
-/// A pair of faces.
-void to_spline(FaceGrid& grid, int pair) {
-  const int side = grid.side(), values = static_cast<int>(FaceGrid::kPair);
-  float* first = grid.pair(pair);
-  for (int y = 0; y < side; ++y) to_spline(first + y * side * values, side, values, values);
-  to_spline(first, side, side * values, side * values);
 }
 
 /// `narrowest`: the least σ² of a level.
@@ -142,64 +113,52 @@ std::vector<GaussianInterval> intervals_of(double texel, const GaussianQuality& 
   return intervals;
 }
 
-/// C scaled values of each map, texel by texel.
-template <std::size_t C>
-void interleave(const float* a, const float* b, const float* scale, int texels, float* to) {
-  float factor[C];
-  std::copy_n(scale, C, factor);
-  for (int x = 0; x < texels; ++x, a += FaceGrid::kPair, b += FaceGrid::kPair, to += 2 * C) {
-    for (std::size_t c = 0; c < C; ++c) {
-      to[c] = a[c] * factor[c];
-      to[C + c] = b[c] * factor[c];
-    }
-  }
-}
-
 /// Stores a pair of maps, whose values are channels from `first` on. Returns their largest |value| / size.
 double store(FaceGrid& a, FaceGrid& b, const GaussianInterval& interval, int first,
              const std::vector<ChannelScale>& scales, std::uint16_t* values, const Monitor& monitor) {
   const std::size_t channels = scales.size();
   const std::size_t here = std::min<std::size_t>(3, channels - static_cast<std::size_t>(first));
   const int side = interval.size + 2, skip = a.margin() - 1;
-  std::vector<float> inverse(here), largest(3);
+  std::array<float, 4> inverse{};
+  std::vector<float> largest(3);
   for (std::size_t c = 0; c < here; ++c) inverse[c] = 1 / scales[static_cast<std::size_t>(first) + c].scale;
+  // Columns by strips, whose coefficients are still near when they are stored.
+  constexpr int kStrip = 16;
+  constexpr std::ptrdiff_t kTexel = FaceGrid::kPair;
+  const GaussianKernels& kernels = gaussian_kernels();
   parallel_for(
       3,
       [&](int pair) {
-        to_spline(a, pair);
-        to_spline(b, pair);
-        std::vector<float> line(static_cast<std::size_t>(side) * 2 * here);
-        std::vector<std::uint16_t> halves(line.size());
-        std::int32_t most = 0;
-        for (int face = 2 * pair; face < 2 * pair + 2; ++face) {
-          for (int y = 0; y < side; ++y) {
-            const float* from[2] = {a.at(face, skip, y + skip), b.at(face, skip, y + skip)};
-            switch (here) {
-              case 1:
-                interleave<1>(from[0], from[1], inverse.data(), side, line.data());
-                break;
-              case 2:
-                interleave<2>(from[0], from[1], inverse.data(), side, line.data());
-                break;
-              default:
-                interleave<3>(from[0], from[1], inverse.data(), side, line.data());
-            }
-            // Whole numbers compare as their floats do, and need no order of NaNs.
-            for (const float value : line)
-              most = std::max(most, std::bit_cast<std::int32_t>(std::fabs(value)));
-            const std::int64_t texel = interval.first + (static_cast<std::int64_t>(face) * side + y) * side;
+        const int rows = a.side();
+        for (FaceGrid* map : {&a, &b})
+          kernels.to_spline(map->pair(pair), {rows, kTexel, rows, rows * kTexel});
+        std::array<std::uint16_t, 8 * kStrip> halves;
+        float most = 0;
+        for (int start = skip; start < skip + side; start += kStrip) {
+          const std::size_t width = static_cast<std::size_t>(std::min(kStrip, skip + side - start));
+          for (FaceGrid* map : {&a, &b}) {
+            kernels.to_spline(map->pair(pair) + start * kTexel,
+                              {rows, rows * kTexel, static_cast<int>(width), kTexel});
+          }
+          for (int y = 0; y < 2 * side; ++y) {
+            const int face = 2 * pair + y / side, row = y % side;
+            most =
+                std::max(most, kernels.to_halves(a.at(face, start, row + skip), b.at(face, start, row + skip),
+                                                 inverse.data(), width, halves.data()));
+            const std::int64_t texel =
+                interval.first + (static_cast<std::int64_t>(face) * side + row) * side + start - skip;
             std::uint16_t* stored = values + static_cast<std::size_t>(texel) * 2 * channels + first;
-            if (here == channels) {
-              gaussian_kernels().to_halves(line.data(), stored, line.size());
+            if (channels == 3) {
+              for (std::size_t x = 0; x < width; ++x) std::memcpy(stored + 6 * x, &halves[8 * x], 12);
               continue;
             }
-            gaussian_kernels().to_halves(line.data(), halves.data(), line.size());
-            const std::uint16_t* half = halves.data();
-            for (int x = 0; x < 2 * side; ++x, stored += channels, half += here)
-              std::copy_n(half, here, stored);
+            for (std::size_t x = 0; x < width; ++x) {
+              for (std::size_t i = 0; i < 2; ++i, stored += channels)
+                std::copy_n(&halves[8 * x + 3 * i], here, stored);
+            }
           }
         }
-        largest[static_cast<std::size_t>(pair)] = std::bit_cast<float>(most);
+        largest[static_cast<std::size_t>(pair)] = most;
       },
       without_progress(monitor));
   double contrast = 0;
@@ -331,7 +290,7 @@ GaussianQuality quality_of(GaussianAccuracy accuracy) {
           .hermite = 1.4,
           .ratio = 0.9,
           .fine_ratio = 0.9,
-          .handover = 2.6,
+          .handover = 4,
           .blur_tail = 0.4,
           .tail = 0.2,
           .tolerance = 2e-3};

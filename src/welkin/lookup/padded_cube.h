@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "welkin/sphere/cube.h"
 
 namespace welkin {
@@ -23,7 +25,7 @@ struct PaddedCube : sphere::WholeWorld {
 
   template <class T>
   Vec3<T> to_sphere(int chart, T u, T v) const {
-    return normalize(sphere::cube_face_point<T>(chart, tan(angle(u)), tan(angle(v))));
+    return normalize(sphere::cube_face_point<T>(chart, tangent(angle(u)), tangent(angle(v))));
   }
   template <class T>
   sphere::ChartPoint<T> from_sphere(const Vec3<T>& d) const {
@@ -42,6 +44,25 @@ struct PaddedCube : sphere::WholeWorld {
 
  private:
   double stretch() const { return width / (width - 2 * kMargin); }
+  /// Of |a| < 1.56. For floats without a call, so that loops over texels become vector code: sine over
+  /// cosine, as many terms of their series as matter.
+  template <class T>
+  static T tangent(T a) {
+    if constexpr (std::is_same_v<T, float>) {
+      const float a2 = a * a;
+      const float sine =
+          1 + a2 * (-1.0f / 6 +
+                    a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 * (1.0f / 362880 + a2 * (-1.0f / 39916800)))));
+      const float cosine =
+          1 +
+          a2 * (-1.0f / 2 +
+                a2 * (1.0f / 24 + a2 * (-1.0f / 720 + a2 * (1.0f / 40320 + a2 * (-1.0f / 3628800 +
+                                                                                 a2 * (1.0f / 479001600))))));
+      return a * sine / cosine;
+    } else {
+      return tan(a);
+    }
+  }
   template <class T>
   T angle(T u) const {
     const T limit = constant<T>(1.55);
