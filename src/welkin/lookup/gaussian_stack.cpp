@@ -89,27 +89,32 @@ void GaussianStack::State::finish(const GaussianInterval& interval, float varian
 
 void GaussianStack::State::flush(Batch& batch, float* sums, float* radiance) const {
   kernels_.locate(batch.taps, batch.used);
-  // The cache is told of everything before the first texel is read.
-  for (std::size_t i = 0; i < batch.waiting; ++i) {
-    const Pending& one = batch.pending[i];
-    const std::size_t pitch = pitch_of(*one.interval), last = 3 * width() - 1;
-    for (std::size_t k = one.from; k < one.to; ++k) {
+  constexpr std::size_t kTogether = 4, kAhead = 8;
+  // The cache is told of texels some taps before they are read: it can wait for few at a time.
+  std::size_t told = 0, told_of = 0;
+  const auto tell = [&](std::size_t end) {
+    for (; told < std::min(end, batch.used); ++told) {
+      while (told >= batch.pending[told_of].to) ++told_of;
+      const GaussianInterval& interval = *batch.pending[told_of].interval;
       const std::uint16_t* texel =
-          texels_of(*one.interval) + static_cast<std::size_t>(batch.taps.texel[k]) * width();
-      for (std::size_t r = 0; r < 3; ++r, texel += pitch) {
+          texels_of(interval) + static_cast<std::size_t>(batch.taps.texel[told]) * width();
+      for (std::size_t r = 0; r < 3; ++r, texel += pitch_of(interval)) {
         __builtin_prefetch(texel);
-        __builtin_prefetch(texel + last);
+        __builtin_prefetch(texel + 3 * width() - 1);
       }
     }
-  }
+  };
   const std::size_t channels = static_cast<std::size_t>(levels_.channels);
   for (std::size_t i = 0; i < batch.waiting; ++i) {
     const Pending& one = batch.pending[i];
     float* out = radiance + one.cone * channels;
     if (one.share > 0) {
       std::fill_n(sums, width() + 8, 0.0f);
-      kernels_.gather(batch.taps, one.from, one.to, texels_of(*one.interval), width(),
-                      pitch_of(*one.interval), sums);
+      for (std::size_t k = one.from; k < one.to; k += kTogether) {
+        tell(k + kTogether + kAhead);
+        kernels_.gather(batch.taps, k, std::min(k + kTogether, one.to), texels_of(*one.interval), width(),
+                        pitch_of(*one.interval), sums);
+      }
       finish(*one.interval, one.variance, sums, out);
     } else {
       std::fill_n(out, channels, 0.0f);
