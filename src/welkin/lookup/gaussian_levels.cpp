@@ -291,7 +291,7 @@ GaussianQuality quality_of(GaussianAccuracy accuracy) {
           .ratio = 0.9,
           .fine_ratio = 0.9,
           .handover = 4,
-          .blur_tail = 0.4,
+          .blur_tail = 0.1,
           .tail = 0.2,
           .tolerance = 2e-3};
 }
