@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "bake_set.h"
 #include "command.h"
 #include "progress.h"
+#include "render_frames.h"
 #include "render_worlds.h"
 #include "scene_flags.h"
 #include "welkin/io/image_file.h"
@@ -22,8 +24,9 @@ struct Render {
   WriteFlags write;
   SceneFlags placed;
   WorldFlags worlds;
+  AnimationFlags animation;
 
-  void run() const;
+  void run(const CLI::App& command) const;
   scene::ShadingOptions shading_options() const;
 };
 
@@ -55,10 +58,11 @@ scene::ShadingOptions Render::shading_options() const {
   return options;
 }
 
-void Render::run() const {
+void Render::run(const CLI::App& command) const {
   check_extension(out);
   worlds.read.parse();
-  scene::ShadingOptions options = shading_options();
+  const bool animated = animation.asked(out);
+  const scene::ShadingOptions asked = shading_options();
   const std::vector<std::string> needless{"matcap",   "window",  "cool-warm", "outline",
                                           "hatching", "normals", "chrome"};
   const bool lit = std::find(needless.begin(), needless.end(), shading) == needless.end();
@@ -66,19 +70,25 @@ void Render::run() const {
     throw UsageError("--env: a map of the world is needed to shade with " + shading);
   scene::Scene loaded = placed.load(scene);
   const scene::PlacedCamera camera = placed.camera_of(loaded);
-  options.to_eye = scene::eye_of(camera.camera.rotation);
-  options.lights = loaded.lights;
-  const scene::Worlds around = worlds.load(loaded);
+  RenderRequest request{.out = out,
+                        .shading = shading,
+                        .worlds = worlds.load(loaded),
+                        .camera = camera,
+                        .shading_options = asked,
+                        .options = {},
+                        .write = &write};
+  request.shading_options.to_eye = scene::eye_of(camera.camera.rotation);
+  request.shading_options.lights = loaded.lights;
+  request.options.samples = samples;
+  request.options.background = !no_background && !worlds.env.empty();
+  request.options.reflection = per_vertex ? scene::Reflection::per_vertex : scene::Reflection::per_pixel;
   const scene::TracedScene traced(std::move(loaded));
-  const auto shade = parse_option("--shading", [&] { return make_shading(shading, around, options); });
-  const bool background = !no_background && !worlds.env.empty();
-  const Image made =
-      scene::render(traced, camera, around.whole, *shade,
-                    {.samples = samples,
-                     .reflection = per_vertex ? scene::Reflection::per_vertex : scene::Reflection::per_pixel,
-                     .background = background,
-                     .monitor = progress_monitor("rendering " + out)});
-  write_picture(out, made, background, write);
+  if (animated) return animation.run(traced, std::move(request), command_line(command));
+  request.options.monitor = progress_monitor("rendering " + out);
+  const auto shade = parse_option(
+      "--shading", [&] { return make_shading(shading, request.worlds, request.shading_options); });
+  const Image made = scene::render(traced, camera, request.worlds.whole, *shade, request.options);
+  write_picture(out, made, request.options.background, write);
 }
 
 }  // namespace
@@ -127,14 +137,15 @@ void add_render(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--no-background", render->no_background,
                     "Leave the world out: alpha is the scene's coverage");
+  render->animation.add(*command);
   render->placed.add(*command);
   render->worlds.add(*command);
   render->write.add(*command);
   add_format(*command, render->format);
-  command->callback([render] {
+  command->callback([render, command] {
     render->out = output_path(render->out, render->format);
     if (!render->worlds.env.empty()) render->worlds.env = input_path(render->worlds.env);
-    render->run();
+    render->run(*command);
   });
 }
 

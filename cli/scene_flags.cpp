@@ -10,6 +10,7 @@
 #include "progress.h"
 #include "welkin/scene/built_in.h"
 #include "welkin/scene/read_scene.h"
+#include "welkin/sequence/made_note.h"
 
 namespace welkin::cli {
 namespace {
@@ -167,9 +168,11 @@ scene::PlacedCamera SceneFlags::camera_of(const scene::Scene& scene) const {
   return camera_that_sees(scene, placed.camera);
 }
 
-void write_picture(const std::string& file, const Image& picture, bool opaque, const WriteFlags& flags) {
+void write_picture(const std::string& file, const Image& picture, bool opaque, const WriteFlags& flags,
+                   const std::string& note) {
   std::vector<std::string> channels{"R", "G", "B", "A"};
-  const WriteMapOptions how = flags.parse();
+  WriteMapOptions how = flags.parse();
+  if (!note.empty()) how.image.attributes[sequence::kFrameKey] = note;
   Image coloured;
   ImageView<const float> shown = picture.view();
   if (opaque || io::capabilities_for(file).channels == io::Channels::rgb) {

@@ -134,6 +134,7 @@
 #include "welkin/render/traced_scene.h"
 #include "welkin/render/view_maps.h"
 #include "welkin/render/world.h"
+#include "welkin/render/world_along.h"
 #include "welkin/scene/aimed_camera.h"
 #include "welkin/scene/built_in.h"
 #include "welkin/scene/read_scene.h"

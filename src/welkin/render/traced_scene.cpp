@@ -79,7 +79,8 @@ class TracedScene::State {
     std::vector<Texture> textures;
   };
 
-  State(std::shared_ptr<const Shared> given, const std::vector<Transform>& to_world);
+  State(std::shared_ptr<const Shared> given, const std::vector<Transform>& to_world,
+        const std::vector<bool>& hidden);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -98,7 +99,8 @@ class TracedScene::State {
   void bend_normal(Surface& at, const std::array<std::array<double, 2>, 3> (&uv)[2]) const;
 };
 
-TracedScene::State::State(std::shared_ptr<const Shared> given, const std::vector<Transform>& to_world)
+TracedScene::State::State(std::shared_ptr<const Shared> given, const std::vector<Transform>& to_world,
+                          const std::vector<bool>& hidden)
     : shared(std::move(given)) {
   const Scene& scene = shared->scene;
   if (triangle_count(scene) > kMostTriangles)
@@ -116,7 +118,7 @@ TracedScene::State::State(std::shared_ptr<const Shared> given, const std::vector
   rt.set_scene_build_quality(traced, RTC_BUILD_QUALITY_HIGH);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     WorldMesh& mesh = meshes[i];
-    if (mesh.triangles.empty()) continue;
+    if (mesh.triangles.empty() || (i < hidden.size() && hidden[i])) continue;
     RTCGeometry geometry = rt.new_geometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rt.set_shared_geometry_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                   mesh.positions.data(), 0, sizeof(Float3), mesh.positions.size() - 1);
@@ -203,10 +205,11 @@ std::vector<Transform> places_of(const Scene& scene) {
 
 TracedScene::TracedScene(Scene scene) {
   auto shared = std::make_shared<const State::Shared>(std::move(scene));
-  state_ = std::make_shared<const State>(shared, places_of(shared->scene));
+  state_ = std::make_shared<const State>(shared, places_of(shared->scene), std::vector<bool>());
 }
 
-TracedScene TracedScene::moved(const std::vector<Transform>& to_world) const {
+TracedScene TracedScene::moved(const std::vector<Transform>& to_world,
+                               const std::vector<bool>& hidden) const {
   require(to_world.size() == scene().instances.size(), "there is a place for each instance");
   for (const Transform& place : to_world) {
     const double volume = determinant(place.linear);
@@ -214,7 +217,7 @@ TracedScene TracedScene::moved(const std::vector<Transform>& to_world) const {
             "an instance stands somewhere, and has a volume");
   }
   TracedScene other(*this);
-  other.state_ = std::make_shared<const State>(state_->shared, to_world);
+  other.state_ = std::make_shared<const State>(state_->shared, to_world, hidden);
   return other;
 }
 

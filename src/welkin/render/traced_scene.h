@@ -62,9 +62,10 @@ class WELKIN_API TracedScene {
   /// The scene, as it was given.
   const Scene& scene() const;
 
-  /// The same scene whose instances stand elsewhere, one place for each; pictures are shared. Throws Error
-  /// (bad_request) for another number of places, and for such as have no volume.
-  TracedScene moved(const std::vector<Transform>& to_world) const;
+  /// The same scene whose instances stand elsewhere, one place for each, or are hidden (`hidden` may be
+  /// shorter than there are instances); pictures are shared. Throws Error (bad_request) for another number of
+  /// places, and for such as have no volume.
+  TracedScene moved(const std::vector<Transform>& to_world, const std::vector<bool>& hidden = {}) const;
 
   /// The first thing along each ray, in the calling thread. There is room for as many hits.
   void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence = Coherence::none) const;

@@ -1,0 +1,128 @@
+#include "render_frames.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "progress.h"
+#include "welkin/render/project.h"
+#include "welkin/sequence/made_note.h"
+
+namespace welkin::cli {
+
+/// An object on its way from one place to another.
+struct AnimationFlags::Motion {
+  std::size_t instance;
+  Vec3d from, to;
+  FrameRange range;
+
+  Vec3d place(double frame) const {
+    const double t = range.last > range.first ? (frame - range.first) / (range.last - range.first) : 0;
+    return from + t * (to - from);
+  }
+};
+
+void AnimationFlags::add(CLI::App& command) {
+  command.add_option("--frames", frames,
+                     "Frames to make of an animation: A-B; OUT is numbered: turn_%04d.exr");
+  command.add_option("--turntable", turntable, "The scene turns once about its vertical in so many frames")
+      ->check(CLI::Range(1, 1'000'000));
+  command.add_option(
+      "--move", move,
+      "NAME=X,Y,Z:X,Y,Z: an object's way from the first frame to the last. It reflects the scene "
+      "around it, projected every so many frames and interpolated between");
+  command.add_option("--every", every, "Of --move: frames from one projection to the next")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  command.add_flag("--resume", resume,
+                   "Leave frames alone whose files are complete and were made by the same request");
+}
+
+bool AnimationFlags::asked(const std::string& out) const {
+  if (!frames.empty()) {
+    if (!FrameNames::has_place(out)) throw UsageError(out + ": has no place for the frame's number, as %04d");
+    return true;
+  }
+  if (turntable > 0) throw UsageError("--turntable: is for --frames");
+  if (!move.empty()) throw UsageError("--move: is for --frames");
+  if (resume) throw UsageError("--resume: is for --frames");
+  return false;
+}
+
+std::optional<AnimationFlags::Motion> AnimationFlags::motion_of(const scene::Scene& scene,
+                                                                const FrameRange& range) const {
+  if (move.empty()) return std::nullopt;
+  const std::size_t equals = move.find('='), colon = move.find(':', equals);
+  if (equals == std::string::npos || colon == std::string::npos)
+    throw UsageError("--move: '" + move + "' is not NAME=X,Y,Z:X,Y,Z");
+  Motion motion{0, parse_point("--move", move.substr(equals + 1, colon - equals - 1)),
+                parse_point("--move", move.substr(colon + 1)), range};
+  std::vector<std::string> names;
+  for (const scene::Instance& instance : scene.instances) names.push_back(instance.name);
+  const std::string name = move.substr(0, equals);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw UsageError("--move: " + unknown_name("object", name, names));
+  motion.instance = static_cast<std::size_t>(found - names.begin());
+  return motion;
+}
+
+void AnimationFlags::run(const scene::TracedScene& scene, RenderRequest request,
+                         const std::string& words) const {
+  const FrameRange range = parse_option("--frames", [&] { return frame_range_from(frames); });
+  const FrameNames names(request.out);
+  const std::optional<Motion> motion = motion_of(scene.scene(), range);
+  if (resume && !io::capabilities_for(request.out).attributes)
+    throw Error(ErrorKind::unsupported, request.out,
+                "the format has no text metadata, which would say what a frame was made from");
+  const std::string digest = sequence::digest_of(words);
+  const Monitor whole = progress_monitor("rendering " + request.out);
+  const int count = range.last - range.first + 1;
+  const std::vector<scene::Transform> still = scene::turned_places(scene.scene(), 0);
+  std::optional<scene::TracedScene> around;
+  std::unique_ptr<scene::Shading> plain =
+      make_shading(request.shading, request.worlds, request.shading_options);
+  std::optional<scene::WorldAlong> along;
+  if (motion) {
+    std::vector<bool> hidden(still.size());
+    hidden[motion->instance] = true;
+    around = scene.moved(still, hidden);
+    along.emplace(
+        scene::ShadedScene{*around, *plain, &request.worlds.whole},
+        [&](double frame) { return motion->place(frame); }, scene::WorldAlongOptions{.every = every});
+    request.worlds.own.clear();
+    request.worlds.of_instance.assign(still.size(), -1);
+    request.worlds.of_instance[motion->instance] = 0;
+  }
+  int complete = 0;
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    const std::string file = names.file(frame).string();
+    const std::string note = sequence::made_note(frame, digest);
+    const std::filesystem::path files[] = {file};
+    if (resume && sequence::is_made(files, note, {})) {
+      ++complete;
+      continue;
+    }
+    const Monitor part =
+        part_of(whole, 1.0 * (frame - range.first) / count, 1.0 * (frame - range.first + 1) / count);
+    request.options.monitor = part;
+    std::vector<scene::Transform> places =
+        turntable > 0 ? scene::turned_places(scene.scene(), 360.0 * (frame - range.first) / turntable)
+                      : still;
+    std::unique_ptr<scene::Shading> own;
+    if (motion) {
+      places[motion->instance].origin = motion->place(frame);
+      request.worlds.own.clear();
+      request.worlds.own.emplace_back(along->at(frame, without_progress(part)));
+      own = make_shading(request.shading, request.worlds, request.shading_options);
+    }
+    const Image picture = scene::render(scene.moved(places), request.camera, request.worlds.whole,
+                                        own ? *own : *plain, request.options);
+    write_picture(file, picture, request.options.background, *request.write, resume ? note : "");
+  }
+  end_progress();
+  if (complete > 0)
+    print_message(fmt::format("{}: {} of {} frames were complete\n", request.out, complete, count));
+}
+
+}  // namespace welkin::cli
