@@ -294,6 +294,46 @@ void write_table_seeds(const fs::path& root) {
   save(root / "coefficients" / "csv", "l,m,R,G,B\n0,0,1,1,1\n1,-1,0,0,0\n1,0,.5,.5,.5\n1,1,0,0,0\n");
 }
 
+/// A triangle with as much around it as the reader of glTF knows; the same as .glb; a square as OBJ.
+void write_scene_seeds(const fs::path& root) {
+  const std::string triangle("AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=");
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"extensionsUsed":["KHR_lights_punctual"],)"
+      R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","color":[1,1,0],"spot":{"outerConeAngle":1}}]}},)"
+      R"("nodes":[{"mesh":0,"children":[1,2],"scale":[1,2,3]},{"camera":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},)"
+      R"({"rotation":[0,0,0,1],"extensions":{"KHR_lights_punctual":{"light":0}}}],)"
+      R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":0,"TEXCOORD_0":2},"indices":1,"material":0}]}],)"
+      R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":)"
+      R"({"offset":[0,1],"scale":[2,2],"rotation":1}}}},"normalTexture":{"index":0},"emissiveFactor":[1,1,1],"extensions":)"
+      R"({"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatTexture":{"index":0}},"KHR_materials_ior":{"ior":2}}}],)"
+      R"("textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":33071}],"images":[{"uri":"data:image/png;base64,)"
+      "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaPgPAAODAgAApfuJAAAAAElFTkSuQmCC"
+      R"("}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,"indices":)"
+      R"({"bufferView":1,"componentType":5123},"values":{"bufferView":0}}},)"
+      R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},)"
+      R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":36,"byteStride":12},{"buffer":0,"byteOffset":36,"byteLength":8}],)"
+      R"("buffers":[{"byteLength":44)";
+  save(root / "scene" / "triangle.gltf", json + R"(,"uri":"data:;base64,)" + triangle + "\"}]}");
+  std::string text = json + "}]}";
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const auto word = [](std::size_t value) {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
+    return bytes;
+  };
+  const std::string data(
+      "\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3F\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3F\0\0\0\0\0\0\1\0\2\0\0\0", 44);
+  save(root / "scene" / "triangle.glb", "glTF" + word(2) + word(28 + text.size() + data.size()) +
+                                            word(text.size()) + "JSON" + text + word(data.size()) +
+                                            std::string("BIN\0", 4) + data);
+  save(root / "scene" / "square.obj",
+       "mtllib a.mtl\nnewmtl m\nKd 1 0 0\nKe 1 1 1\nNs 10\nmap_Kd -s 2 2 1 a.png\nnorm b.png\no s\nv 0 0 "
+       "0\nv 1 0 0\n"
+       "v 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nusemtl m\nf 1/1/1 2/1/1 3/1/1 -1/1/1\nf 1 2 3\n");
+}
+
 }  // namespace
 
 void write_metadata_seeds(const fs::path& root) {
@@ -304,6 +344,7 @@ void write_metadata_seeds(const fs::path& root) {
     for (const auto& [name, bytes] : seeds) save(root / folder / name, bytes);
   }
   write_table_seeds(root);
+  write_scene_seeds(root);
   write_jpegs(root / "jpeg");
   write_pngs(root / "png");
   // The other half of the gain map's fuzzer: pictures one after the other.

@@ -4,10 +4,12 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
 #include <tuple>
+#include <unordered_map>
 
 #include "welkin/base/error.h"
 #include "welkin/scene/scene_input.h"
@@ -118,6 +120,20 @@ class Materials {
   std::map<std::tuple<std::string, io::Colour, Wrap>, int> numbers_;
 };
 
+/// Indices of a position, a normal, texture coordinates.
+using Corner = std::array<int, 3>;
+
+struct CornerHash {
+  std::size_t operator()(const Corner& corner) const {
+    std::uint64_t h = 0;
+    for (const int index : corner) {
+      h = (h ^ static_cast<std::uint32_t>(index)) * 0x9E3779B97F4A7C15u;
+      h ^= h >> 29;
+    }
+    return static_cast<std::size_t>(h);
+  }
+};
+
 /// The triangles of one shape and one material, their corners joined where all indices are the same.
 class MeshBuilder {
  public:
@@ -142,7 +158,7 @@ class MeshBuilder {
 
  private:
   std::uint32_t vertex(const tinyobj::index_t& corner) {
-    const auto key = std::tuple{corner.vertex_index, corner.normal_index, corner.texcoord_index};
+    const Corner key{corner.vertex_index, corner.normal_index, corner.texcoord_index};
     const auto [at, is_new] = numbers_.emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
     if (!is_new) return at->second;
     const auto values = [](const std::vector<float>& all, int index, std::size_t each, const char* of) {
@@ -174,7 +190,7 @@ class MeshBuilder {
 
   const tinyobj::attrib_t& attributes_;
   Mesh mesh_;
-  std::map<std::tuple<int, int, int>, std::uint32_t> numbers_;
+  std::unordered_map<Corner, std::uint32_t, CornerHash> numbers_;
   bool has_normals_ = false, lacks_normals_ = false, has_uv_ = false;
 };
 
