@@ -1,41 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "welkin/brdf/dfg_table.h"
+#include "welkin/brdf/compensation.h"
 #include "welkin/brdf/microfacet.h"
 #include "welkin/render/shading_look_ups.h"
+#include "welkin/render/split_sums.h"
 
 namespace welkin::scene {
 namespace {
-
-/// GGX's scale and bias over n·v and roughness.
-class SplitSums {
- public:
-  SplitSums() {
-    brdf::DfgTable table;
-    table.width = table.height = kSide;
-    table.cosine = brdf::CosineScale::root;
-    table.placement = brdf::TexelPlacement::ends;
-    image_ = brdf::make_dfg_table(table);
-  }
-
-  std::array<double, 2> at(double nv, double roughness) const {
-    const double x = std::sqrt(std::clamp(nv, 0.0, 1.0)) * (kSide - 1),
-                 y = std::clamp(roughness, 0.0, 1.0) * (kSide - 1);
-    const int i = std::min(static_cast<int>(x), kSide - 2), j = std::min(static_cast<int>(y), kSide - 2);
-    const double fx = x - i, fy = y - j;
-    std::array<double, 2> value{};
-    for (int c = 0; c < 2; ++c)
-      value[static_cast<std::size_t>(c)] =
-          (1 - fy) * ((1 - fx) * image_.at(i, j)[c] + fx * image_.at(i + 1, j)[c]) +
-          fy * ((1 - fx) * image_.at(i, j + 1)[c] + fx * image_.at(i + 1, j + 1)[c]);
-    return value;
-  }
-
- private:
-  static constexpr int kSide = 128;
-  Image image_;
-};
 
 /// The roughness of a surface whose normals and whose reflected directions within a pixel spread besides:
 /// slopes' variances add, and α²/2 is GGX's (of its core).
@@ -52,6 +24,7 @@ double widened(double roughness, const Surface& at, const RayDifferential& ray) 
 class MaterialShading : public Shading {
  public:
   MaterialShading(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
+    split_sums();
     const auto prepare = [](const World& world) {
       world.rough();
       world.diffuse();
@@ -70,7 +43,6 @@ class MaterialShading : public Shading {
 
   Worlds worlds_;
   ShadingOptions options_;
-  SplitSums sums_;
 };
 
 const Sampler& rough_of(const World& world) {
@@ -118,16 +90,17 @@ void MaterialShading::shade(std::span<const Surface> surfaces, std::span<Rgb> ra
 Rgb MaterialShading::mixed(const Surface& at, const Layers& layers, std::size_t i) const {
   const MaterialPoint& material = at.material;
   const double nv = std::clamp(dot(at.normal, at.view), 0.0, 1.0);
-  const auto [scale, bias] = sums_.at(nv, material.roughness);
-  const double albedo = scale + bias, missing = 1 - albedo;
+  const brdf::SplitSum sum = split_sums().at(nv, material.roughness);
+  const double missing = 1 - sum.one;
   const double dielectric = brdf::f0_of_eta<double>(material.material->ior);
+  const double f90 = material.metallic + (1 - material.metallic) * grazing_reflectance(dielectric);
   Rgb result = material.emission;
   for (std::size_t c = 0; c < 3; ++c) {
     const double base = material.base_color[c];
     const double f0 = dielectric + material.metallic * (base - dielectric);
-    const double once = f0 * scale + bias;
+    const double once = sum.reflectance(f0, f90);
     // What is scattered twice and more leaves along all directions, like diffuse light.
-    const double mean = f0 + (1 - f0) / 21, often = once * mean * missing / (1 - mean * missing);
+    const double mean = brdf::average_fresnel(f0, f90), often = once * mean * missing / (1 - mean * missing);
     const double under = std::max(0.0, 1 - once - often) * (1 - material.metallic);
     const double passed = under * material.transmission * base;
     const double scattered = under * (1 - material.transmission) * base + often;
