@@ -122,6 +122,7 @@
 #include "welkin/prefilter/view_bake.h"
 #include "welkin/prefilter/view_reference.h"
 #include "welkin/prefilter/view_stack.h"
+#include "welkin/render/hybrid.h"
 #include "welkin/render/path_tracer.h"
 #include "welkin/render/probe_grid.h"
 #include "welkin/render/probe_light.h"

@@ -12,28 +12,6 @@
 namespace welkin::scene {
 namespace {
 
-World even_world(float radiance) {
-  Map map(sphere::AnyParameterization::make("latlong"), 32, 16, 3);
-  for (int y = -kBorder; y < 16 + kBorder; ++y)
-    for (int x = -kBorder; x < 32 + kBorder; ++x)
-      for (int c = 0; c < 3; ++c) map.level.chart(0).at(x, y)[c] = radiance;
-  return World(std::move(map));
-}
-
-/// A ball of one material. Its triangles are small enough that what interpolated normals lose is below 1e-4.
-Scene ball_of(const Material& material) {
-  Scene scene = ball(256);
-  scene.materials[0] = material;
-  return scene;
-}
-
-Material smooth_metal() {
-  Material material;
-  material.metallic = 1;
-  material.roughness = 0;
-  return material;
-}
-
 /// Diffuse alone: an index of 1 reflects nothing.
 Material lambert(float reflectance) {
   Material material;
@@ -134,23 +112,6 @@ TEST(PathTracer, AllSamplingsHaveOneMean) {
     EXPECT_LT(means[0].error, 1.1 * std::min(means[1].error, means[2].error));
     EXPECT_LT(means[0].error, 0.02 * means[0].value);
   }
-}
-
-/// Pixels of the ball's picture within a part of its radius.
-double relative_error_within(const Image& picture, const Image& truth, double part) {
-  const int size = picture.width();
-  const double radius = part * std::tan(std::asin(0.25)) / std::tan(kPi / 6) * size / 2;
-  double squares = 0, differences = 0;
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      if (std::hypot(x + 0.5 - size / 2, y + 0.5 - size / 2) > radius) continue;
-      for (int c = 0; c < 3; ++c) {
-        squares += std::pow(truth.at(x, y)[c], 2);
-        differences += std::pow(picture.at(x, y)[c] - truth.at(x, y)[c], 2);
-      }
-    }
-  }
-  return std::sqrt(differences / squares);
 }
 
 // Near the outline a pixel's cone is no small part of the world: four fifths of the radius are

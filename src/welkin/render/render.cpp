@@ -5,7 +5,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
-#include "welkin/camera/view.h"
+#include "welkin/render/backdrop.h"
 #include "welkin/render/camera_rays.h"
 
 namespace welkin::scene {
@@ -134,22 +134,7 @@ Image render(const TracedScene& scene, const PlacedCamera& camera, const World& 
       },
       monitor);
   if (!options.background) return picture;
-  ResampleOptions shown;
-  shown.borders = false;
-  shown.monitor = part_of(options.monitor, 0.9, 1);
-  const Map behind = view(background.map(), camera.camera, shown);
-  const int channels = behind.channels();
-  const ImageView<const float> seen = behind.level.chart(0);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      float* to = picture.at(x, y);
-      const float through = std::max(0.0f, 1 - to[3]);
-      const float* from = seen.at(x, y);
-      for (int c = 0; c < 3; ++c) to[c] += through * from[channels >= 3 ? c : 0];
-      const double u = (x + 0.5) / width, v = (y + 0.5) / height;
-      to[3] = frame.parameterization.valid(0, u, v) ? 1.0f : to[3];
-    }
-  }
+  show_behind(picture, camera.camera, background, part_of(options.monitor, 0.9, 1));
   return picture;
 }
 
