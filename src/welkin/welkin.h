@@ -130,6 +130,7 @@
 #include "welkin/render/render.h"
 #include "welkin/render/rtxgi_probes.h"
 #include "welkin/render/shading.h"
+#include "welkin/render/shadow_map.h"
 #include "welkin/render/sphere_pictures.h"
 #include "welkin/render/surface.h"
 #include "welkin/render/texture_coordinates.h"
