@@ -36,7 +36,7 @@ std::vector<TexelBlock> texel_blocks(int charts, ChartSize size, int samples) {
 }
 
 TexelRays texel_rays(const MapFrame& frame, const TexelBlock& block, int samples) {
-  const auto per_texel = static_cast<std::size_t>(samples) * static_cast<std::size_t>(samples);
+  const auto per_texel = static_cast<std::uint32_t>(samples * samples);
   const auto texels = static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height);
   std::vector<PicturePlace> places;
   places.reserve(texels * per_texel);
@@ -59,6 +59,7 @@ TexelRays texel_rays(const MapFrame& frame, const TexelBlock& block, int samples
   std::vector<bool> valid;
   const CameraRays camera(frame, {0, 0, 0});
   camera.rays(places, 1.0 / samples, made.rays, valid);
+  for (const RaySpread& ray : made.rays) made.directions.push_back(to_float(ray.direction));
 
   std::vector<PicturePlace> centres;
   for (std::size_t i = 0; i < texels; ++i) {
@@ -120,8 +121,7 @@ bool TexelEye::joins_group(const Hit& hit, const Vec3<float>& across, float weig
 void TexelEye::trace(const TexelRays& texels, const Vec3d& position, bool first, std::span<SeenTexel> out) {
   const Vec3<float> origin = to_float(position);
   traced_.clear();
-  for (const Way& way : ways_)
-    traced_.push_back({origin, to_float(texels.rays[way.ray].direction), way.near});
+  for (const Way& way : ways_) traced_.push_back({origin, texels.directions[way.ray], way.near});
   hits_.resize(traced_.size());
   seen_.scene.closest(traced_, hits_, Coherence::close);
   const auto farthest = static_cast<float>(farthest_);
@@ -135,7 +135,7 @@ void TexelEye::trace(const TexelRays& texels, const Vec3d& position, bool first,
       missed_.push_back(way);
       continue;
     }
-    const auto texel = static_cast<std::uint32_t>(way.ray / texels.per_texel);
+    const std::uint32_t texel = way.ray / texels.per_texel;
     if (texel != last_texel) groups_.clear();
     last_texel = texel;
     SeenTexel& to = out[texel];
@@ -148,13 +148,13 @@ void TexelEye::trace(const TexelRays& texels, const Vec3d& position, bool first,
       to.depth += weight * distance;
       to.depth_square += weight * distance * distance;
     };
-    RaySpread ray = texels.rays[way.ray];
     if (shade_once_ && opaque_[hit.instance]) {
       const float weight = way.through * ray_weight;
       const Vec3<float> across = normalize(hit.across);
       covered(weight);
       if (joins_group(hit, across, weight)) continue;
       groups_.push_back({hit.instance, across, hit.distance, surfaces_.size()});
+      RaySpread ray = texels.rays[way.ray];
       ray.origin = position;
       ray.direction_change.right = static_cast<double>(texels.samples) * ray.direction_change.right;
       ray.direction_change.down = static_cast<double>(texels.samples) * ray.direction_change.down;
@@ -163,6 +163,7 @@ void TexelEye::trace(const TexelRays& texels, const Vec3d& position, bool first,
       texels_.push_back(texel);
       continue;
     }
+    RaySpread ray = texels.rays[way.ray];
     ray.origin = position;
     const Surface at = seen_.scene.surface(ray, hit);
     const float alpha = at.material.alpha;

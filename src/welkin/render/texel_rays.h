@@ -22,12 +22,13 @@ std::vector<TexelBlock> texel_blocks(int charts, ChartSize size, int samples);
 
 /// The rays of a block's texels, row by row, samples² of each. They depend on no position.
 struct TexelRays {
-  TexelBlock block;             ///< which
-  int samples = 0;              ///< rays of a texel along each axis
-  std::size_t per_texel = 0;    ///< samples²
-  std::vector<RaySpread> rays;  ///< from the origin
-  std::vector<float> weights;   ///< those of a texel add up to 1
-  std::vector<bool> valid;      ///< of each texel: false where its centre is no position, its weights 0
+  TexelBlock block;                     ///< which
+  int samples = 0;                      ///< rays of a texel along each axis
+  std::uint32_t per_texel = 0;          ///< samples²
+  std::vector<RaySpread> rays;          ///< from the origin
+  std::vector<Vec3<float>> directions;  ///< theirs
+  std::vector<float> weights;           ///< those of a texel add up to 1
+  std::vector<bool> valid;  ///< of each texel: false where its centre is no position, its weights 0
 };
 TexelRays texel_rays(const MapFrame& frame, const TexelBlock& block, int samples);
 
