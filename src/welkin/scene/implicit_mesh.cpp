@@ -176,7 +176,7 @@ Mesh implicit_mesh(const Distance& distance, const Bounds& box, int cells) {
   require(cells >= 4 && cells <= 2048, "an implicit surface has 4 to 2048 cells along its box");
   const Lattice lattice = lattice_over(box, cells);
   const auto [columns, rows, slices] = lattice.blocks;
-  std::vector<std::unique_ptr<Block>> blocks(static_cast<std::size_t>(columns) * rows * slices);
+  std::vector<std::unique_ptr<Block>> blocks(static_cast<std::size_t>(columns * rows * slices));
   parallel_for(slices * rows, [&, columns = columns, rows = rows](int row) {
     for (int column = 0; column < columns; ++column) {
       const Cell block{column, row % rows, row / rows};

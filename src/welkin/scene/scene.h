@@ -65,12 +65,12 @@ struct Material {
   bool masked = false;                          ///< alpha is 0 or 1, cut at the cut-off
   bool blended = false;                         ///< alpha is coverage; where neither is set it counts as 1
   bool two_sided = false;                       ///< seen from behind as well
-  PictureUse base_map;                          ///< R G B × base_color, A × alpha
-  PictureUse metallic_roughness_map;            ///< G × roughness, B × metallic
-  PictureUse normal_map;                        ///< R G B = (n + 1)/2 in the frame of tangents
-  PictureUse emission_map;                      ///< R G B × emission
-  PictureUse transmission_map;                  ///< R × transmission
-  PictureUse clearcoat_map;                     ///< R × clearcoat
+  PictureUse base_map = {};                     ///< R G B × base_color, A × alpha
+  PictureUse metallic_roughness_map = {};       ///< G × roughness, B × metallic
+  PictureUse normal_map = {};                   ///< R G B = (n + 1)/2 in the frame of tangents
+  PictureUse emission_map = {};                 ///< R G B × emission
+  PictureUse transmission_map = {};             ///< R × transmission
+  PictureUse clearcoat_map = {};                ///< R × clearcoat
 };
 
 /// Triangles of one material.
@@ -116,6 +116,7 @@ struct SceneCamera {
 
 /// A light without extent.
 struct PointLight {
+  /// How it shines.
   enum class Kind {
     point,        ///< shines all around
     spot,         ///< within a cone
