@@ -124,7 +124,7 @@ Mesh bumpy_mesh(int rows, double depth, double frequency, double seed) {
   };
   return grid_mesh(
       [&](double u, double v) {
-        const double azimuth = 2 * kPi * u, polar = kPi * v, s = std::sin(polar);
+        const double azimuth = u < 1 ? 2 * kPi * u : 0, polar = kPi * v, s = v < 1 ? std::sin(polar) : 0;
         const Vec3d d{-s * std::sin(azimuth), std::cos(polar), -s * std::cos(azimuth)};
         const Vec3d p = (1 - excess(d)) * d;
         constexpr double kStep = 1e-3;

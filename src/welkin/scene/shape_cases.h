@@ -49,13 +49,13 @@ inline double mean_agreement(const Mesh& mesh) {
   return sum / area;
 }
 
-/// Whether every edge, by the places of its ends to 1e-5, lies between triangles as often this way as that.
+/// Whether every edge, by the places of its ends to the bit, lies between triangles as often this way as
+/// that.
 inline bool is_closed(const Mesh& mesh) {
-  std::map<std::array<long, 3>, int> numbers;
+  std::map<std::array<float, 3>, int> numbers;
   const auto number = [&](std::uint32_t index) {
     const Vec3<float>& p = mesh.positions[index];
-    const std::array<long, 3> place{std::lround(1e5 * p.x), std::lround(1e5 * p.y), std::lround(1e5 * p.z)};
-    return numbers.emplace(place, static_cast<int>(numbers.size())).first->second;
+    return numbers.emplace(std::array{p.x, p.y, p.z}, static_cast<int>(numbers.size())).first->second;
   };
   std::map<std::pair<int, int>, int> uses;
   for (const auto& t : mesh.triangles) {

@@ -61,8 +61,10 @@ Mesh swept(const std::function<AxisFrame(double along)>& axis, const Profile& pr
            int rows) {
   return grid_mesh(
       [&](double u, double v) {
-        const double t = 1 - v, azimuth = 2 * kPi * u;
-        const ProfilePoint at = profile(t);
+        // Where it closes, vertices are the same to the bit, or rays go through between them.
+        const double t = 1 - v, azimuth = u < 1 ? 2 * kPi * u : 0;
+        ProfilePoint at = profile(t);
+        if (at.radius < 1e-12) at.radius = 0;
         constexpr double kStep = 1e-5;
         const ProfilePoint before = profile(std::max(t - kStep, 0.0)),
                            after = profile(std::min(t + kStep, 1.0));
