@@ -7,13 +7,13 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 must synth axes card.exr --size 256 --samples 2
 must synth constant grey.exr --size 64
 
-# A mirror ball seen along +Z shows what is behind the camera in its middle: −Z; above the middle what is above.
-must render sphere ball.pfm --env card.exr --shading mirror --size 65x65 --samples 1 --position 0,0,-4 --look 0 --fov 40 --material color=1
-pixel() { must info "$1"; }
-middle=$(python3 - <<'P' 2>/dev/null || true
-P
-)
-must view ball.pfm middle.pfm --camera perspective --fov 2 --size 4x4 --from perspective,fov=40
+# A mirror ball seen along +Z shows in its middle what is behind the camera, −Z, and a diffuse one the light from there; the world is smooth.
+must bake card.exr diffuse.exr --lobe lambert
+from_front=(--size 65x65 --samples 1 --position 0,0,-4 --look 0 --fov 40 --material color=1)
+must render sphere ball.pfm --env diffuse.exr --shading mirror "${from_front[@]}"
+near "the middle of a mirror ball" "$(sample_along ball.pfm 0,0,1 --from perspective,fov=40)" "$(sample_along diffuse.exr 0,0,-1)" 2e-3
+must render sphere flat.pfm --env card.exr --shading diffuse "${from_front[@]}"
+near "diffuse light along the normal" "$(sample_along flat.pfm 0,0,1 --from perspective,fov=40)" "$(sample_along diffuse.exr 0,0,-1)" 2e-3
 
 # The picture's alpha is what the scene covers, and a format without alpha says so.
 must render sphere alpha.exr --shading normals --size 32x32 --no-background
@@ -26,11 +26,30 @@ for shading in material mirror glossy refraction diffuse globe phong stack warpe
   must render torus "$shading.exr" --env card.exr --shading "$shading" --size 24x16 --samples 1 --triangles 500 "${extra[@]}"
 done
 
-# One radiance from everywhere stays what it is.
+# One radiance from everywhere stays what it is, with a body in view or not.
 for shading in mirror glossy refraction diffuse globe phong; do
-  must render teapot "$shading.exr" --env grey.exr --shading "$shading" --size 24x16 --samples 1 --material color=1
-  must diff "$shading.exr" "$shading.exr"
+  must render sphere constant.pfm --env grey.exr --shading "$shading" --size 16x16 --samples 2 --position 0,0,-4 --look 0 --fov 40 \
+    --material color=1
+  near "$shading in a grey world" "$(sample_along constant.pfm 0,0,1 --from perspective,fov=40)" "$(sample_along grey.exr 0,0,1)" 1e-4
 done
+
+# Objects with a world of their own, and worlds that are near.
+must render floor own.exr --env card.exr --own sphere=grey.exr@0,1,0 --proxy ground:1,20 --size 24x16
+must render floor box.exr --env card.exr --proxy box:-5,-1,-5,5,5,5@0,1,0 --size 24x16
+
+# Animations: a turntable goes round once; what is complete stays; a moving object sees its scene.
+must render teapot 'turn_%d.exr' --env card.exr --frames 0-4 --turntable 4 --size 24x16 --samples 1 --resume
+same turn_0.exr turn_4.exr 1e-5
+checks=$((checks + 1))
+cmp -s turn_0.exr turn_2.exr && fail "a teapot looks the same from the other side"
+rm turn_3.exr
+tells_text "4 of 5 frames were complete" render teapot 'turn_%d.exr' --env card.exr --frames 0-4 --turntable 4 --size 24x16 --samples 1 --resume
+[[ -e turn_3.exr ]] || fail "the missing frame was not made"
+must render floor 'move_%d.exr' --env card.exr --frames 1-3 --move sphere=-1,1,0:1,1,0 --every 2 --shading diffuse --size 24x16 --samples 1
+refuses 2 "has no place for the frame's number" render floor still.exr --env card.exr --frames 1-3
+refuses 2 "is for --frames" render floor still.exr --env card.exr --turntable 3
+refuses 2 "is not NAME=X,Y,Z" render floor 'm_%d.exr' --env card.exr --frames 1-2 --move sphere
+refuses 2 "unknown object" render floor 'm_%d.exr' --env card.exr --frames 1-2 --move spere=0,0,0:1,1,1
 
 # Requests that make no sense: status 2, and the remedy.
 refuses 2 "did you mean 'teapot'" render teapto out.png --env card.exr
@@ -46,6 +65,9 @@ refuses 2 "is not sphere:RADIUS" render sphere out.png --env card.exr --proxy cy
 refuses 1 "" render sphere out.png --env missing.exr
 refuses 1 "" render missing.gltf out.png --env card.exr
 
-# A roughness map's levels are as rough as the bumps that they lose.
-must roughness ball.pfm 0.4 rough.ktx2 --levels 4
+# A roughness map's levels are as rough as the bumps that they lose; a plane's stay as they are.
+must roughness flat.pfm 0.4 rough.ktx2 --levels 4
+refuses 2 "the format has no levels" roughness flat.pfm 0.4 rough.png
+refuses 1 "outside 0" roughness flat.pfm 1.4 rough.ktx2
+refuses 1 "texels and the normal map" roughness flat.pfm constant.pfm rough.ktx2
 finish
