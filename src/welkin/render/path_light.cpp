@@ -10,7 +10,7 @@
 namespace welkin::scene {
 
 PathLight::PathLight(const World& world, LightSampling sampling, const Monitor& monitor)
-    : world_(world), sampling_(sampling) {
+    : world_(world), sampling_(sampling), wanted_(sampling) {
   const bool far = world.proxy().shape == Proxy::Shape::far;
   require(far || sampling != LightSampling::light,
           "light is drawn by the map's brightness only of a world that is infinitely far");
@@ -40,7 +40,7 @@ std::optional<DrawnLight> PathLight::draw(const Vec3d& position, PathNumbers& nu
 }
 
 double PathLight::light_weight(double pdf, double bsdf) const {
-  return sampling_ == LightSampling::light ? 1 : pdf / (pdf + bsdf);
+  return wanted_ == LightSampling::light ? 1 : pdf / (pdf + bsdf);
 }
 
 double PathLight::surface_weight(const Vec3d& direction, double bsdf) const {

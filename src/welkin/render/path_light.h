@@ -35,7 +35,8 @@ class PathLight {
 
  private:
   World world_;
-  LightSampling sampling_;
+  LightSampling sampling_;  // of the world
+  LightSampling wanted_;    // of what is near
   std::optional<ImportanceSampler> importance_;
 };
 

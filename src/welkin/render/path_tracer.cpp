@@ -10,6 +10,7 @@
 #include "welkin/base/parallel.h"
 #include "welkin/render/bsdf.h"
 #include "welkin/render/camera_rays.h"
+#include "welkin/render/emitters.h"
 #include "welkin/render/path_light.h"
 #include "welkin/render/split_sums.h"
 
@@ -43,7 +44,7 @@ struct PathSum {
 class Paths {
  public:
   Paths(const TracedScene& scene, const PathLight& light, const PathOptions& options)
-      : scene_(scene), light_(light), options_(options) {
+      : scene_(scene), light_(light), options_(options), emitters_(scene.scene()) {
     for (const Material& material : scene.scene().materials)
       transparent_ = transparent_ || material.blended || material.masked;
   }
@@ -51,14 +52,22 @@ class Paths {
   PathSum follow(RaySpread ray, PathNumbers& numbers) const;
 
  private:
-  std::optional<Surface> next_surface(RaySpread& ray, PathNumbers& numbers) const;
+  /// What a ray meets, and how far it is.
+  struct Met {
+    Surface at;
+    double distance;
+  };
+  std::optional<Met> next_surface(const RaySpread& ray, PathNumbers& numbers) const;
   double unobstructed(const Vec3d& from, const Vec3d& direction, double distance) const;
   Radiance direct(const Surface& at, const Bsdf& bsdf, PathNumbers& numbers) const;
+  Radiance from_emitter(const Surface& at, const Bsdf& bsdf, PathNumbers& numbers) const;
+  double emission_weight(const Met& met, bool mirror, double pdf) const;
   Vec3d off_surface(const Surface& at, const Vec3d& direction) const;
 
   const TracedScene& scene_;
   const PathLight& light_;
   const PathOptions& options_;
+  Emitters emitters_;
   bool transparent_ = false;
 };
 
@@ -67,7 +76,7 @@ Vec3d Paths::off_surface(const Surface& at, const Vec3d& direction) const {
   return at.position + (side * scene_.clearance(at.position)) * at.flat_normal;
 }
 
-std::optional<Surface> Paths::next_surface(RaySpread& ray, PathNumbers& numbers) const {
+std::optional<Paths::Met> Paths::next_surface(const RaySpread& ray, PathNumbers& numbers) const {
   Ray traced{to_float(ray.origin), to_float(ray.direction)};
   for (int layer = 0; layer < kMostLayers; ++layer) {
     const Hit hit = scene_.closest(traced);
@@ -75,7 +84,7 @@ std::optional<Surface> Paths::next_surface(RaySpread& ray, PathNumbers& numbers)
     Surface at = scene_.surface(ray, hit);
     // A surface that covers a part is met by that part of the paths.
     const float alpha = at.material.alpha;
-    if (alpha >= 1 || (alpha > 0 && numbers.single() < alpha)) return at;
+    if (alpha >= 1 || (alpha > 0 && numbers.single() < alpha)) return Met{at, hit.distance};
     traced.near = hit.distance + static_cast<float>(scene_.clearance(at.position));
   }
   return std::nullopt;
@@ -110,6 +119,8 @@ Radiance Paths::direct(const Surface& at, const Bsdf& bsdf, PathNumbers& numbers
       }
     }
   }
+  if (!emitters_.empty() && options_.sampling != LightSampling::bsdf)
+    sum = sum + from_emitter(at, bsdf, numbers);
   for (const PointLight& lamp : scene_.scene().lights) {
     const auto light = lamp_at(lamp, at.position);
     if (!light) continue;
@@ -119,6 +130,37 @@ Radiance Paths::direct(const Surface& at, const Bsdf& bsdf, PathNumbers& numbers
     sum = sum + (open * std::abs(dot(at.normal, light->direction))) * (f * light->irradiance);
   }
   return sum;
+}
+
+Radiance Paths::from_emitter(const Surface& at, const Bsdf& bsdf, PathNumbers& numbers) const {
+  const double which = numbers.single();
+  const auto [u1, u2] = numbers.pair();
+  Emitters::Drawn drawn = emitters_.draw(which, u1, u2);
+  const Vec3d towards = drawn.position - at.position;
+  const double distance = length(towards);
+  if (!(distance > 0)) return {};
+  const Vec3d direction = (1 / distance) * towards;
+  const Radiance f = bsdf.evaluate(direction);
+  if (!(largest(f) > 0)) return {};
+  drawn.hit.distance = static_cast<float>(distance);
+  const Surface glow = scene_.surface({at.position, direction, {}, {}}, drawn.hit);
+  const double facing = std::abs(dot(glow.flat_normal, direction));
+  const double pdf = emitters_.density(glow.instance) * distance * distance / std::max(facing, 1e-9);
+  const double reach = distance - 2 * scene_.clearance(glow.position) / std::max(facing, 1e-3);
+  if (!(facing > 1e-9) || !(reach > 0)) return {};
+  const double open = unobstructed(off_surface(at, direction), direction, reach);
+  const double cosine = std::abs(dot(at.normal, direction)), alpha = glow.material.alpha;
+  const double weight = open * alpha * cosine * light_.light_weight(pdf, bsdf.pdf(direction)) / pdf;
+  return weight * (f * to_radiance(glow.material.emission));
+}
+
+double Paths::emission_weight(const Met& met, bool mirror, double pdf) const {
+  if (mirror || emitters_.empty() || options_.sampling == LightSampling::bsdf) return 1;
+  if (options_.sampling == LightSampling::light) return 0;
+  const double facing = std::abs(dot(met.at.flat_normal, met.at.view));
+  const double drawn =
+      emitters_.density(met.at.instance) * met.distance * met.distance / std::max(facing, 1e-9);
+  return pdf / (pdf + drawn);
 }
 
 PathSum Paths::follow(RaySpread ray, PathNumbers& numbers) const {
@@ -135,10 +177,13 @@ PathSum Paths::follow(RaySpread ray, PathNumbers& numbers) const {
         sum.radiance = sum.radiance + weight * (through * light_.seen(ray.origin, ray.direction));
       break;
     }
-    sum.radiance = sum.radiance + through * to_radiance(met->material.emission);
+    const Surface& at = met->at;
+    if (largest(to_radiance(at.material.emission)) > 0)
+      sum.radiance =
+          sum.radiance + emission_weight(*met, mirror, pdf) * (through * to_radiance(at.material.emission));
     if (bounce == options_.depth) break;
-    const Bsdf bsdf(*met);
-    sum.radiance = sum.radiance + through * direct(*met, bsdf, numbers);
+    const Bsdf bsdf(at);
+    sum.radiance = sum.radiance + through * direct(at, bsdf, numbers);
     const double lobe = numbers.single();
     const auto [u1, u2] = numbers.pair();
     const auto next = bsdf.sample(lobe, u1, u2);
@@ -152,7 +197,7 @@ PathSum Paths::follow(RaySpread ray, PathNumbers& numbers) const {
     }
     mirror = next->mirror;
     pdf = next->pdf;
-    ray = {off_surface(*met, next->direction), next->direction, {}, {}};
+    ray = {off_surface(at, next->direction), next->direction, {}, {}};
   }
   sum.alpha = 1;
   if (options_.clamp > 0)

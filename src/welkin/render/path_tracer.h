@@ -14,11 +14,11 @@
 /// Pictures of scenes by following light along paths: what look-ups approximate.
 namespace welkin::scene {
 
-/// How paths find the light of the world.
+/// How paths find the light of the world and of surfaces that glow.
 enum class LightSampling {
   mis,    ///< both, weighted by their densities (Veach & Guibas 1995, the balance heuristic)
   bsdf,   ///< in directions in which surfaces scatter
-  light,  ///< in directions in which the map is bright, but for mirrors
+  light,  ///< in directions in which they are bright, but for mirrors
 };
 
 /// `mis`, `bsdf`, `light`. Throws Error (bad_request) for another name.
@@ -31,7 +31,7 @@ struct PathOptions {
   int samples = 64;  ///< paths of each pixel, 1 … 2²⁰
   int depth = 16;  ///< surfaces at which a path is scattered, at most, 0 … 1000; 0: only what glows is seen
   std::uint64_t seed = 0;                       ///< other pictures of the same mean
-  LightSampling sampling = LightSampling::mis;  ///< of the world's light
+  LightSampling sampling = LightSampling::mis;  ///< of light
   /// The most radiance that a path may bring, in any channel; 0: no bound. A bound hides bright dots and
   /// makes pictures too dark.
   double clamp = 0;
@@ -51,7 +51,7 @@ struct PathPicture {
 /// R G B A of a scene as a camera sees it, like render(), by paths through all of it: reflected, refracted
 /// and scattered among surfaces as their materials say (GGX, Lambert under it, clear coat, rough glass with
 /// Walter et al. 2007's facets; sheen is left out), lit by the world's map, by point, spot and directional
-/// lights, and by surfaces that glow, which are found by chance. Refraction goes through bodies: a
+/// lights, and by surfaces that glow. Refraction goes through bodies: a
 /// surface's back is the inside. Pixels are box-filtered.
 ///
 /// Shading has no bias but the path's largest depth, the world's texels interpolated, and normals

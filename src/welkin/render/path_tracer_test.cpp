@@ -8,6 +8,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/render/render_cases.h"
+#include "welkin/scene/built_in.h"
 
 namespace welkin::scene {
 namespace {
@@ -112,6 +113,50 @@ TEST(PathTracer, AllSamplingsHaveOneMean) {
     EXPECT_LT(means[0].error, 1.1 * std::min(means[1].error, means[2].error));
     EXPECT_LT(means[0].error, 0.02 * means[0].value);
   }
+}
+
+// A small square that glows above a floor: its irradiance is a formula, and every sampling finds it.
+TEST(PathTracer, SurfacesThatGlowShineByTheirFormula) {
+  Scene scene;
+  scene.materials.push_back(lambert(0.5f));
+  scene.materials.push_back(lambert(0));
+  scene.materials[1].emission = {8, 8, 8};
+  scene.meshes.push_back(square_mesh());
+  Transform above;
+  above.linear = Matrix3{{{{0.2, 0, 0}, {0, -1, 0}, {0, 0, 0.2}}}};
+  above.origin = {0, 1, 0};
+  scene.instances.push_back({"floor", 0, {}, -1});
+  scene.instances.push_back({"lamp", 0, above, 1});
+  const TracedScene traced(std::move(scene));
+  PlacedCamera camera;
+  camera.camera.fov = 0.5;
+  camera.camera.size = {8, 8};
+  camera.camera.rotation = rotation_of({0, -90, 0});
+  camera.position = {0, 0.5, 0};
+  // Four quarters, each with a corner above the place (Siegel & Howell 1992, configuration C-11).
+  const double a = 0.2, r = std::sqrt(1 + a * a), form = 4 / (2 * kPi) * 2 * a / r * std::atan(a / r);
+  for (const LightSampling sampling : {LightSampling::mis, LightSampling::bsdf, LightSampling::light}) {
+    const Mean mean = mean_of(
+        path_trace(traced, camera, even_world(0), {.samples = 256, .depth = 1, .sampling = sampling}), 0);
+    EXPECT_NEAR(mean.value, 8 * 0.5 * form, 4 * mean.error + 1e-4) << name_of(sampling);
+    EXPECT_LT(mean.error, sampling == LightSampling::bsdf ? 0.02 : 0.002) << name_of(sampling);
+  }
+}
+
+// By brightness alone, places beside the lamp would need many more paths: it is left out.
+TEST(PathTracer, TheLampOfARoomIsFoundByChanceToo) {
+  const TracedScene scene(built_in("room", {.triangles = 3000}));
+  const World dark = even_world(0);
+  PlacedCamera camera = ball_camera(16);
+  const SceneCamera& own = scene.scene().cameras.at(0);
+  camera.camera.rotation = own.rotation;
+  camera.position = own.position;
+  const auto made = [&](LightSampling sampling) {
+    return mean_of(path_trace(scene, camera, dark, {.samples = 256, .depth = 2, .sampling = sampling}), 0);
+  };
+  const Mean both = made(LightSampling::mis), chance = made(LightSampling::bsdf);
+  EXPECT_NEAR(chance.value, both.value, 4 * std::hypot(chance.error, both.error));
+  EXPECT_LT(both.error, 0.75 * chance.error);
 }
 
 // Near the outline a pixel's cone is no small part of the world: four fifths of the radius are
