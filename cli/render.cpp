@@ -9,6 +9,7 @@
 #include "command.h"
 #include "progress.h"
 #include "render_frames.h"
+#include "render_integrator.h"
 #include "render_worlds.h"
 #include "scene_flags.h"
 #include "welkin/io/image_file.h"
@@ -25,6 +26,7 @@ struct Render {
   SceneFlags placed;
   WorldFlags worlds;
   AnimationFlags animation;
+  IntegratorFlags integrator;
 
   void run(const CLI::App& command) const;
   scene::ShadingOptions shading_options() const;
@@ -63,10 +65,12 @@ void Render::run(const CLI::App& command) const {
   worlds.read.parse();
   const bool animated = animation.asked(out);
   const scene::ShadingOptions asked = shading_options();
+  integrator.check();
+  scene::ShadingOptions options = shading_options();
   const std::vector<std::string> needless{"matcap",   "window",  "cool-warm", "outline",
                                           "hatching", "normals", "chrome"};
   const bool lit = std::find(needless.begin(), needless.end(), shading) == needless.end();
-  if (lit && worlds.env.empty())
+  if (lit && worlds.env.empty() && integrator.needs_shading())
     throw UsageError("--env: a map of the world is needed to shade with " + shading);
   scene::Scene loaded = placed.load(scene);
   const scene::PlacedCamera camera = placed.camera_of(loaded);
@@ -89,6 +93,27 @@ void Render::run(const CLI::App& command) const {
       "--shading", [&] { return make_shading(shading, request.worlds, request.shading_options); });
   const Image made = scene::render(traced, camera, request.worlds.whole, *shade, request.options);
   write_picture(out, made, request.options.background, write);
+
+  options.to_eye = scene::eye_of(camera.camera.rotation);
+  options.lights = loaded.lights;
+  const scene::Worlds around = worlds.load(loaded);
+  if (!integrator.needs_shading() && worlds.env.empty() && !has_lights(loaded))
+    throw UsageError("--env: a map of the world is needed, as nothing in the scene shines");
+  const scene::TracedScene traced(std::move(loaded));
+  std::unique_ptr<const scene::Shading> shade;
+  if (integrator.needs_shading())
+    shade = parse_option("--shading", [&] { return make_shading(shading, around, options); });
+  integrator.run(
+      {.out = out,
+       .scene = traced,
+       .camera = camera,
+       .worlds = around,
+       .shading = shade.get(),
+       .look_up = {.samples = samples,
+                   .reflection = per_vertex ? scene::Reflection::per_vertex : scene::Reflection::per_pixel,
+                   .background = !no_background && !worlds.env.empty(),
+                   .monitor = progress_monitor("rendering " + out)},
+       .write = write});
 }
 
 }  // namespace
@@ -140,6 +165,7 @@ void add_render(CLI::App& app) {
   render->animation.add(*command);
   render->placed.add(*command);
   render->worlds.add(*command);
+  render->integrator.add(*command);
   render->write.add(*command);
   add_format(*command, render->format);
   command->callback([render, command] {

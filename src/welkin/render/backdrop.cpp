@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "welkin/base/error.h"
 #include "welkin/camera/view.h"
 
 namespace welkin::scene {
 
 void show_behind(Image& picture, const Camera& camera, const World& world, const Monitor& monitor) {
   const MapFrame frame = frame_of(camera);
+  if (picture.width() != frame.size.width || picture.height() != frame.size.height || picture.channels() != 4)
+    throw Error(ErrorKind::mismatch, "the picture isn't R G B A of the camera's size");
   ResampleOptions shown;
   shown.borders = false;
   shown.monitor = monitor;
