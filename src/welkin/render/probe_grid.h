@@ -42,7 +42,7 @@ struct ProbeGridOptions {
   int diffuse_size = 8;    ///< of the diffuse light, along a side; 0: none
   int depth_size = 16;     ///< of the distances' moments; 0: none
   int border = 1;          ///< texels around each tile, 1 … kBorder, so that it is read without a seam
-  int samples = 2;         ///< samples² rays for each texel of the projection, 1 … 64
+  int samples = 4;         ///< samples² rays for each texel of the projection, 1 … 64
   bool shade_once = true;  ///< as ProjectOptions::shade_once
   /// Roughness of the levels of GGX, each over the one before, in tiles of `size`; none where this is empty.
   std::vector<double> roughness = {};

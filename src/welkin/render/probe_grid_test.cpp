@@ -22,6 +22,7 @@ const Bounds kRoom{{-2, -1.5, -3}, {2, 1.5, 3}};
 ProbeGridOptions small_probes() {
   ProbeGridOptions options;
   options.size = 16;
+  options.samples = 2;
   options.roughness = {0.5};
   return options;
 }

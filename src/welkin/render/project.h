@@ -29,7 +29,7 @@ enum class DepthChannels {
 /// How a world is projected.
 struct ProjectOptions {
   int samples = 4;  ///< samples² rays for each texel, 1 … 64
-  /// Shade what a texel's rays meet of one opaque instance, where normals differ by less than 14° and
+  /// Shade what a texel's rays meet of one opaque instance, where normals differ by less than 26° and
   /// distances by less than a quarter, once, over the cone of the texel, and not ray by ray: faster, and a
   /// little less exact where light changes within a texel.
   bool shade_once = false;

@@ -13,7 +13,7 @@ namespace {
 /// Surfaces behind one another that a ray goes through.
 constexpr int kMostLayers = 32;
 /// Normals and distances of what is shaded once: the cosine, and the ratio.
-constexpr float kOneSide = 0.97f, kOneDistance = 1.25f;
+constexpr float kOneSide = 0.9f, kOneDistance = 1.25f;
 /// Texels of a sky as rays see it.
 constexpr std::int64_t kMostSkyTexels = 1 << 22;
 /// Rays of a block: what is known of them stays in a processor's second cache.
