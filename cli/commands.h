@@ -17,6 +17,7 @@ void add_list(CLI::App& app);
 void add_lut(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_render(CLI::App& app);
+void add_project(CLI::App& app);
 void add_roughness(CLI::App& app);
 void add_sample(CLI::App& app);
 void add_sh(CLI::App& app);

@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   cli::add_view(app);
   cli::add_render(app);
   cli::add_roughness(app);
+  cli::add_project(app);
   cli::add_sample(app);
   cli::add_importance(app);
   cli::add_diff(app);

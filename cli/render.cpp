@@ -89,8 +89,10 @@ void Render::run(const CLI::App& command) const {
   const scene::TracedScene traced(std::move(loaded));
   if (animated) return animation.run(traced, std::move(request), command_line(command));
   request.options.monitor = progress_monitor("rendering " + out);
-  const auto shade = parse_option(
-      "--shading", [&] { return make_shading(shading, request.worlds, request.shading_options); });
+  const auto shade =
+      placed.lit(parse_option("--shading",
+                              [&] { return make_shading(shading, request.worlds, request.shading_options); }),
+                 shading, traced);
   const Image made = scene::render(traced, camera, request.worlds.whole, *shade, request.options);
   write_picture(out, made, request.options.background, write);
 

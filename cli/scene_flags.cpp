@@ -89,6 +89,12 @@ void SceneFlags::add_scene(CLI::App& command) {
       "--material", material,
       "Properties of all materials: color=R/G/B, metallic, roughness, ior, transmission, "
       "clearcoat, clearcoat-roughness, emission=R/G/B, normal-scale; metallic=1,roughness=0.2");
+  command
+      .add_option(
+          "--shadows", shadows,
+          "Of the scene's own lights, with --shading material: map (distances on an octahedron), traced, "
+          "none; off leaves the lights out")
+      ->capture_default_str();
   command.add_option("--triangles", triangles, "About how many triangles a built-in body has")
       ->check(CLI::Range(64, 10'000'000));
 }
@@ -117,6 +123,16 @@ scene::Scene SceneFlags::load(const std::string& name) const {
   print_warnings(name, scene.warnings);
   if (!material.empty()) set_materials(scene, material);
   return scene;
+}
+
+std::unique_ptr<scene::Shading> SceneFlags::lit(std::unique_ptr<scene::Shading> shading,
+                                                const std::string& name,
+                                                const scene::TracedScene& traced) const {
+  const std::vector<std::string> names{"none", "map", "traced", "off"};
+  const auto found = std::find(names.begin(), names.end(), shadows);
+  if (found == names.end()) throw UsageError("--shadows: " + unknown_name("kind of shadow", shadows, names));
+  if (name != "material" || shadows == "off" || traced.scene().lights.empty()) return shading;
+  return scene::with_lights(std::move(shading), traced, static_cast<scene::Shadows>(found - names.begin()));
 }
 
 namespace {

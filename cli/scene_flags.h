@@ -1,11 +1,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "command.h"
 #include "welkin/render/render.h"
+#include "welkin/render/shadow_map.h"
 #include "welkin/scene/scene.h"
 
 /// What commands on scenes share.
@@ -14,6 +16,7 @@ namespace welkin::cli {
 /// Options of a scene and of the camera that looks at it.
 struct SceneFlags {
   std::string size = "960x540", lens = "perspective", look, position, camera, material;
+  std::string shadows = "map";
   std::optional<double> fov;
   int triangles = 0;
 
@@ -23,6 +26,9 @@ struct SceneFlags {
   void add_scene(CLI::App& command);
   /// A file's scene, or a built-in one; `--material` applied, warnings told. Throws UsageError.
   scene::Scene load(const std::string& name) const;
+  /// The shading, with the scene's lights, where it is one that they light. Throws UsageError.
+  std::unique_ptr<scene::Shading> lit(std::unique_ptr<scene::Shading> shading, const std::string& name,
+                                      const scene::TracedScene& traced) const;
   /// The scene's camera, unless options say otherwise. Throws UsageError.
   scene::PlacedCamera camera_of(const scene::Scene& scene) const;
 };
