@@ -64,58 +64,41 @@ void Render::run(const CLI::App& command) const {
   check_extension(out);
   worlds.read.parse();
   const bool animated = animation.asked(out);
-  const scene::ShadingOptions asked = shading_options();
   integrator.check();
   scene::ShadingOptions options = shading_options();
   const std::vector<std::string> needless{"matcap",   "window",  "cool-warm", "outline",
                                           "hatching", "normals", "chrome"};
-  const bool lit = std::find(needless.begin(), needless.end(), shading) == needless.end();
-  if (lit && worlds.env.empty() && integrator.needs_shading())
+  const bool sketch = std::find(needless.begin(), needless.end(), shading) != needless.end();
+  if (!sketch && worlds.env.empty() && integrator.needs_shading())
     throw UsageError("--env: a map of the world is needed to shade with " + shading);
   scene::Scene loaded = placed.load(scene);
+  if (!integrator.needs_shading() && worlds.env.empty() && !has_lights(loaded))
+    throw UsageError("--env: a map of the world is needed, as nothing in the scene shines");
   const scene::PlacedCamera camera = placed.camera_of(loaded);
-  RenderRequest request{.out = out,
-                        .shading = shading,
-                        .worlds = worlds.load(loaded),
-                        .camera = camera,
-                        .shading_options = asked,
-                        .options = {},
-                        .write = &write};
-  request.shading_options.to_eye = scene::eye_of(camera.camera.rotation);
-  request.shading_options.lights = loaded.lights;
-  request.options.samples = samples;
-  request.options.background = !no_background && !worlds.env.empty();
-  request.options.reflection = per_vertex ? scene::Reflection::per_vertex : scene::Reflection::per_pixel;
-  const scene::TracedScene traced(std::move(loaded));
-  if (animated) return animation.run(traced, std::move(request), command_line(command));
-  request.options.monitor = progress_monitor("rendering " + out);
-  const auto shade =
-      placed.lit(parse_option("--shading",
-                              [&] { return make_shading(shading, request.worlds, request.shading_options); }),
-                 shading, traced);
-  const Image made = scene::render(traced, camera, request.worlds.whole, *shade, request.options);
-  write_picture(out, made, request.options.background, write);
-
   options.to_eye = scene::eye_of(camera.camera.rotation);
   options.lights = loaded.lights;
   const scene::Worlds around = worlds.load(loaded);
-  if (!integrator.needs_shading() && worlds.env.empty() && !has_lights(loaded))
-    throw UsageError("--env: a map of the world is needed, as nothing in the scene shines");
   const scene::TracedScene traced(std::move(loaded));
-  std::unique_ptr<const scene::Shading> shade;
-  if (integrator.needs_shading())
-    shade = parse_option("--shading", [&] { return make_shading(shading, around, options); });
-  integrator.run(
-      {.out = out,
-       .scene = traced,
-       .camera = camera,
-       .worlds = around,
-       .shading = shade.get(),
-       .look_up = {.samples = samples,
-                   .reflection = per_vertex ? scene::Reflection::per_vertex : scene::Reflection::per_pixel,
-                   .background = !no_background && !worlds.env.empty(),
-                   .monitor = progress_monitor("rendering " + out)},
-       .write = write});
+  const MakeSceneShading shade = [&](const scene::Worlds& seen, const scene::TracedScene& standing) {
+    return parse_option("--shading",
+                        [&] { return placed.lit(make_shading(shading, seen, options), shading, standing); });
+  };
+  const scene::RenderOptions how{
+      .samples = samples,
+      .reflection = per_vertex ? scene::Reflection::per_vertex : scene::Reflection::per_pixel,
+      .background = !no_background && !worlds.env.empty(),
+      .monitor = progress_monitor("rendering " + out)};
+  std::unique_ptr<const scene::Shading> made;
+  if (animated || integrator.needs_shading()) made = shade(around, traced);
+  const RenderJob job{.out = out,
+                      .scene = traced,
+                      .camera = camera,
+                      .worlds = around,
+                      .shading = made.get(),
+                      .look_up = how,
+                      .write = write};
+  if (animated) return animation.run(job, shade, integrator, command_line(command));
+  integrator.run(job);
 }
 
 }  // namespace

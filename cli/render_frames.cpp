@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "progress.h"
+#include "scene_flags.h"
 #include "welkin/render/project.h"
+#include "welkin/render/world_along.h"
 #include "welkin/sequence/made_note.h"
 
 namespace welkin::cli {
@@ -67,32 +69,34 @@ std::optional<AnimationFlags::Motion> AnimationFlags::motion_of(const scene::Sce
   return motion;
 }
 
-void AnimationFlags::run(const scene::TracedScene& scene, RenderRequest request,
-                         const std::string& words) const {
+void AnimationFlags::run(const RenderJob& job, const MakeSceneShading& shade,
+                         const IntegratorFlags& integrator, const std::string& words) const {
   const FrameRange range = parse_option("--frames", [&] { return frame_range_from(frames); });
-  const FrameNames names(request.out);
+  const FrameNames names(job.out);
+  const scene::TracedScene& scene = job.scene;
   const std::optional<Motion> motion = motion_of(scene.scene(), range);
-  if (resume && !io::capabilities_for(request.out).attributes)
-    throw Error(ErrorKind::unsupported, request.out,
+  if (motion && !job.worlds.own.empty()) throw UsageError("--own: cannot be combined with --move");
+  if (!integrator.compare.empty() || !integrator.standard_error.empty())
+    throw UsageError("--compare, --standard-error: are for one picture, not for --frames");
+  if (resume && !io::capabilities_for(job.out).attributes)
+    throw Error(ErrorKind::unsupported, job.out,
                 "the format has no text metadata, which would say what a frame was made from");
   const std::string digest = sequence::digest_of(words);
-  const Monitor whole = progress_monitor("rendering " + request.out);
   const int count = range.last - range.first + 1;
   const std::vector<scene::Transform> still = scene::turned_places(scene.scene(), 0);
+  // What a moving object sees: the scene without it.
   std::optional<scene::TracedScene> around;
-  std::unique_ptr<scene::Shading> plain =
-      make_shading(request.shading, request.worlds, request.shading_options);
   std::optional<scene::WorldAlong> along;
+  scene::Worlds worlds = job.worlds;
   if (motion) {
     std::vector<bool> hidden(still.size());
     hidden[motion->instance] = true;
     around = scene.moved(still, hidden);
     along.emplace(
-        scene::ShadedScene{*around, *plain, &request.worlds.whole},
+        scene::ShadedScene{*around, *job.shading, &job.worlds.whole},
         [&](double frame) { return motion->place(frame); }, scene::WorldAlongOptions{.every = every});
-    request.worlds.own.clear();
-    request.worlds.of_instance.assign(still.size(), -1);
-    request.worlds.of_instance[motion->instance] = 0;
+    worlds.of_instance.assign(still.size(), -1);
+    worlds.of_instance[motion->instance] = 0;
   }
   int complete = 0;
   for (int frame = range.first; frame <= range.last; ++frame) {
@@ -103,26 +107,31 @@ void AnimationFlags::run(const scene::TracedScene& scene, RenderRequest request,
       ++complete;
       continue;
     }
-    const Monitor part =
-        part_of(whole, 1.0 * (frame - range.first) / count, 1.0 * (frame - range.first + 1) / count);
-    request.options.monitor = part;
+    const double done = frame - range.first;
+    const Monitor part = part_of(job.look_up.monitor, done / count, (done + 1) / count);
     std::vector<scene::Transform> places =
-        turntable > 0 ? scene::turned_places(scene.scene(), 360.0 * (frame - range.first) / turntable)
-                      : still;
-    std::unique_ptr<scene::Shading> own;
+        turntable > 0 ? scene::turned_places(scene.scene(), 360 * done / turntable) : still;
     if (motion) {
       places[motion->instance].origin = motion->place(frame);
-      request.worlds.own.clear();
-      request.worlds.own.emplace_back(along->at(frame, without_progress(part)));
-      own = make_shading(request.shading, request.worlds, request.shading_options);
+      worlds.own.clear();
+      worlds.own.emplace_back(along->at(frame, without_progress(part)));
     }
-    const Image picture = scene::render(scene.moved(places), request.camera, request.worlds.whole,
-                                        own ? *own : *plain, request.options);
-    write_picture(file, picture, request.options.background, *request.write, resume ? note : "");
+    const scene::TracedScene standing = scene.moved(places);
+    const std::unique_ptr<scene::Shading> made = shade(worlds, standing);
+    RenderJob each{.out = file,
+                   .scene = standing,
+                   .camera = job.camera,
+                   .worlds = worlds,
+                   .shading = made.get(),
+                   .look_up = job.look_up,
+                   .write = job.write,
+                   .note = resume ? note : ""};
+    each.look_up.monitor = part;
+    integrator.run(each);
   }
   end_progress();
   if (complete > 0)
-    print_message(fmt::format("{}: {} of {} frames were complete\n", request.out, complete, count));
+    print_message(fmt::format("{}: {} of {} frames were complete\n", job.out, complete, count));
 }
 
 }  // namespace welkin::cli

@@ -1,26 +1,20 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "command.h"
-#include "render_worlds.h"
-#include "scene_flags.h"
+#include "render_integrator.h"
 #include "welkin/render/render.h"
-#include "welkin/render/world_along.h"
 #include "welkin/sequence/frame_names.h"
 
 namespace welkin::cli {
 
-/// How a picture of a scene is made, its worlds read.
-struct RenderRequest {
-  std::string out, shading;
-  scene::Worlds worlds;
-  scene::PlacedCamera camera;
-  scene::ShadingOptions shading_options;
-  scene::RenderOptions options;
-  const WriteFlags* write = nullptr;
-};
+/// Makes a scene's shading in these worlds.
+using MakeSceneShading = std::function<std::unique_ptr<scene::Shading>(const scene::Worlds& worlds,
+                                                                       const scene::TracedScene& scene)>;
 
 /// Options of animations.
 struct AnimationFlags {
@@ -31,8 +25,9 @@ struct AnimationFlags {
   void add(CLI::App& command);
   /// Whether there is one; throws UsageError for options of one where there is none.
   bool asked(const std::string& out) const;
-  /// Makes and writes all frames; `words` is the command line, which --resume compares.
-  void run(const scene::TracedScene& scene, RenderRequest request, const std::string& words) const;
+  /// Makes and writes all frames of a job; `words` is the command line, which --resume compares.
+  void run(const RenderJob& job, const MakeSceneShading& shade, const IntegratorFlags& integrator,
+           const std::string& words) const;
 
  private:
   struct Motion;

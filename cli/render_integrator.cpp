@@ -138,15 +138,15 @@ void IntegratorFlags::run(const RenderJob& job) const {
   if (integrator == "path") {
     const scene::PathPicture made = parse_option(
         "--sampling", [&] { return path_trace(job.scene, job.camera, job.worlds.whole, path_options(job)); });
-    write_picture(job.out, made.picture, background, job.write);
+    write_picture(job.out, made.picture, background, job.write, job.note);
     if (!standard_error.empty()) write_picture(standard_error, made.standard_error, true, job.write);
     return;
   }
-  if (compare.empty()) return write_picture(job.out, make(job, background), background, job.write);
+  if (compare.empty()) return write_picture(job.out, make(job, background), background, job.write, job.note);
   Image made = make(job, false);
   compare_with_paths(job, made);
   if (background) show_behind(made, job.camera.camera, job.worlds.whole);
-  write_picture(job.out, made, background, job.write);
+  write_picture(job.out, made, background, job.write, job.note);
 }
 
 bool has_lights(const scene::Scene& scene) {

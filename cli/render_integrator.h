@@ -18,6 +18,7 @@ struct RenderJob {
   const scene::Shading* shading;  ///< none for paths
   scene::RenderOptions look_up;   ///< its background is that of all integrators
   const WriteFlags& write;
+  std::string note = {};  ///< of write_picture
 };
 
 /// Options of how a picture is made: by look-ups, paths, or both.
