@@ -68,6 +68,11 @@ void Tile::trace(std::vector<Way>& ways) {
   hits_.resize(traced_.size());
   scene_.closest(traced_, hits_, Coherence::close);
   const auto per_pixel = static_cast<std::uint32_t>(samples_ * samples_);
+  if (surfaces_.empty()) {
+    surfaces_.reserve(ways.size());
+    weights_.reserve(ways.size());
+    pixels_.reserve(ways.size());
+  }
   std::size_t left = 0;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     if (!hits_[i]) continue;

@@ -159,7 +159,7 @@ Surface TracedScene::surface(const RaySpread& ray, const Hit& hit, Reflection re
   }
 
   const double det = uv_e1[0] * uv_e2[1] - uv_e1[1] * uv_e2[0];
-  Vec3d along = across(at.normal), other = {0, 0, 0};
+  Vec3d along = {0, 0, 0}, other = {0, 0, 0};
   double handed = 1;
   if (!mesh.tangents.empty()) {
     const auto& t0 = mesh.tangents[triangle[0]];
@@ -174,7 +174,9 @@ Surface TracedScene::surface(const RaySpread& ray, const Hit& hit, Reflection re
     other = (-1 / det) * (uv_e1[0] * e2 - uv_e2[0] * e1);
     handed = dot(cross(side * at.normal, along), other) < 0 ? -1 : 1;
   }
-  at.tangent = unit_or(along - dot(along, at.normal) * at.normal, across(at.normal));
+  const Vec3d level = along - dot(along, at.normal) * at.normal;
+  const double long_enough = length(level);
+  at.tangent = long_enough > 1e-300 ? (1 / long_enough) * level : across(at.normal);
   at.bitangent = (handed * side) * cross(at.normal, at.tangent);
   at.material = state_->material_at(*mesh.material, at, uv);
   if (mesh.material->normal_map) state_->bend_normal(at, uv);
