@@ -57,7 +57,7 @@ enum class Shadows {
 };
 
 /// A shading, and the light of a scene's lights besides: diffuse reflection and GGX of each material (glTF
-/// 2.0, appendix B), no more of what is transmitted. Keeps what it is given.
+/// 2.0, appendix B), nothing of what passes through. Keeps what it is given.
 WELKIN_API std::unique_ptr<Shading> with_lights(std::unique_ptr<Shading> shading, const TracedScene& scene,
                                                 Shadows shadows = Shadows::map,
                                                 const ShadowMapOptions& options = {});
