@@ -22,7 +22,7 @@ struct Project {
   WorldFlags worlds;
   GridFlags grid;
 
-  void run() const;
+  void run(const CLI::App& command) const;
 
  private:
   scene::ProjectOptions options() const;
@@ -73,7 +73,7 @@ void Project::project(const scene::ShadedScene& seen, const Vec3d& place, const 
   report_losses(out, write_map(out, map, sized.layout, options));
 }
 
-void Project::run() const {
+void Project::run(const CLI::App& command) const {
   const scene::ProjectOptions how = options();
   worlds.read.parse();
   if (grid.asked() != at.empty())
@@ -83,8 +83,13 @@ void Project::run() const {
   std::optional<Vec3d> place;
   std::optional<MapShape> shape;
   if (grid.asked()) {
-    request = grid.parse(size, samples, write);
+    for (const char* option : {"--to", "--depth", "--coverage"})
+      if (command.count(option) > 0)
+        throw UsageError(
+            fmt::format("{}: doesn't go with --grid, whose probes are octahedral, with distances", option));
     check_extension(out);
+    request = grid.parse(out, size, samples, write);
+    request->options.farthest = farthest;
   } else {
     grid.check_unused();
     place = parse_point("--at", at);
@@ -144,10 +149,10 @@ void add_project(CLI::App& app) {
   project->worlds.add(*command);
   project->write.add(*command);
   add_format(*command, project->format);
-  command->callback([project] {
+  command->callback([project, command] {
     project->out = output_path(project->out, project->format);
     if (!project->worlds.env.empty()) project->worlds.env = input_path(project->worlds.env);
-    project->run();
+    project->run(*command);
   });
 }
 

@@ -73,7 +73,7 @@ void GridFlags::add(CLI::App& command) {
       "Default: the scene's");
   command
       .add_option("--layout", layout,
-                   "Of the grid's files: welkin, or rtxgi, the textures of NVIDIA's RTXGI-DDGI")
+                  "Of the grid's files: welkin, or rtxgi, the textures of NVIDIA's RTXGI-DDGI")
       ->capture_default_str();
   command
       .add_option("--diffuse-size", diffuse_size,
@@ -86,6 +86,38 @@ void GridFlags::add(CLI::App& command) {
   command.add_option("--roughness", roughness, "Of the grid: also GGX at these, 0.25,0.5,1. Default: none");
 }
 
+namespace {
+
+/// Whether the files can be written, before there is anything to write.
+void check_files(const GridFlags::Request& request, const std::string& out, const WriteFlags& write) {
+  const scene::ProbeGridOptions& options = request.options;
+  const std::vector<std::string> rgb{"R", "G", "B"}, rgba{"R", "G", "B", "A"};
+  const io::WriteOptions how = write.parse().image;
+  const auto check = [&](const std::string& name, int size, const std::vector<std::string>& channels) {
+    const double pitch = size + 2 * options.border, width = pitch * request.counts[0],
+                 height = pitch * request.counts[1] * request.counts[2];
+    // What is larger is refused by the grid itself.
+    if (size == 0 || width > 1 << 20 || height > 1 << 20) return;
+    try {
+      io::check_write(file_of(out, name), static_cast<int>(width), static_cast<int>(height), channels, how);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::unsupported || error.kind() == ErrorKind::bad_request)
+        throw UsageError(error.what());
+      throw;
+    }
+  };
+  if (request.rtxgi) {
+    check("irradiance", options.diffuse_size, rgba);
+    check("distance", options.depth_size, {"R", "G"});
+    return;
+  }
+  check("radiance", options.size, rgb);
+  check("diffuse", options.diffuse_size, rgb);
+  check("depth", options.depth_size, {"Z", "Z2"});
+}
+
+}  // namespace
+
 void GridFlags::check_unused() const {
   const auto unused = [](const char* option, bool given) {
     if (given) throw UsageError(std::string(option) + ": goes with --grid");
@@ -97,7 +129,8 @@ void GridFlags::check_unused() const {
   unused("--roughness", !roughness.empty());
 }
 
-GridFlags::Request GridFlags::parse(const std::string& size, int samples, const WriteFlags& write) const {
+GridFlags::Request GridFlags::parse(const std::string& out, const std::string& size, int samples,
+                                    const WriteFlags& write) const {
   Request request;
   const std::vector<double> n = parse_numbers("--grid", counts);
   if (n.size() != 3) throw UsageError("--grid: '" + counts + "' is not NX,NY,NZ");
@@ -124,6 +157,7 @@ GridFlags::Request GridFlags::parse(const std::string& size, int samples, const 
   if (request.rtxgi && (options.diffuse_size == 0 || options.depth_size == 0))
     throw UsageError("--layout: rtxgi needs diffuse light and distances");
   if (!roughness.empty()) options.roughness = parse_numbers("--roughness", roughness);
+  check_files(request, out, write);
   return request;
 }
 

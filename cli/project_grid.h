@@ -26,7 +26,7 @@ struct GridFlags {
     bool rtxgi = false;
     scene::ProbeGridOptions options;
   };
-  Request parse(const std::string& size, int samples, const WriteFlags& write) const;
+  Request parse(const std::string& out, const std::string& size, int samples, const WriteFlags& write) const;
 
   /// Projects and writes all files: OUT's name, each with what it holds before the extension, and a JSON.
   void run(const Request& request, const scene::ShadedScene& seen, const std::string& out,

@@ -64,6 +64,10 @@ same straight.exr again.exr 1e-6
 refuses 2 "say from where" project room out.exr --env grey.exr
 refuses 2 "doesn't go with --grid" project room out.exr --at 0,0,0 --grid 1,1,1
 refuses 2 "goes with --grid" project room out.exr --at 0,0,0 --layout rtxgi
+refuses 2 "doesn't go with --grid" project room out.exr --grid 1,1,1 --to cube
+refuses 2 "channels|R, G, B|Y or" project room out.png --grid 1,1,1
+refuses 2 "over 0, and at most" project room out.exr --grid 1,1,1 --farthest 0
+refuses 2 "4 to 1024 texels" project room out.exr --grid 1,1,1 --size 2
 refuses 2 "is not x,y,z" project room out.exr --at 1,2
 refuses 2 "did you mean 'rtxgi'" project room out.exr --grid 1,1,1 --layout rtxg
 refuses 2 "not a whole number" project room out.exr --grid 0,1,1
