@@ -20,6 +20,7 @@ namespace {
 struct Render {
   std::string scene, out, format, shading = "material", fresnel = "none", brdf = "ggx", picture;
   int samples = 4, views = 20;
+  std::vector<std::string> balls;
   bool no_background = false, quadrilateral = false, per_vertex = false, reflected = false;
   double eta = 1.5, exponent = 50;
   WriteFlags write;
@@ -57,6 +58,18 @@ scene::ShadingOptions Render::shading_options() const {
   if (found == names.end()) throw UsageError("--fresnel: " + unknown_name("combination", fresnel, names));
   options.fresnel = static_cast<scene::Fresnel>(found - names.begin());
   if (!picture.empty()) options.picture = read_picture(picture);
+  for (const std::string& ball : balls) {
+    const std::size_t at = ball.rfind('@');
+    if (at == std::string::npos) throw UsageError("--ball: '" + ball + "' is not PICTURE@X,Y,Z");
+    const Vec3d view = parse_point("--ball", ball.substr(at + 1));
+    if (!(length(view) > 0)) throw UsageError("--ball: '" + ball + "' is seen from no direction");
+    auto map = std::make_shared<scene::ViewMap>();
+    map->to_eye = scene::eye_towards(view);
+    const std::shared_ptr<const Image> image = read_picture(ball.substr(0, at));
+    map->picture = Image(image->width(), image->height(), image->channels());
+    copy_pixels(image->view(), map->picture.view());
+    options.view_maps.push_back(std::move(map));
+  }
   return options;
 }
 
@@ -134,6 +147,10 @@ void add_render(CLI::App& app) {
   command->add_option("--views", render->views, "Of warped: from how many directions the ball is baked")
       ->check(CLI::Range(3, 1000))
       ->capture_default_str();
+  command->add_option(
+      "--ball", render->balls,
+      "PICTURE@X,Y,Z: of warped, a square photograph of a ball of the material, its disc filling "
+      "the square, seen from that direction, +Y up; three at least");
   command->add_option("--picture", render->picture,
                       "Of matcap: a square picture of a ball. Of chrome: its colours, the zenith on top");
   command->add_flag("--reflected", render->reflected,

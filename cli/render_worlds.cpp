@@ -49,6 +49,10 @@ scene::Proxy parse_proxy(const std::string& text) {
 void WorldFlags::add(CLI::App& command) {
   command.add_option("--env", env, "Map of the world; may be left out by sketches and normals");
   command.add_option(
+      "--chain", chain,
+      "That world pre-filtered with GGX, for material: what `bake` makes, KTX2 or EXR with levels. "
+      "Default: made from --env");
+  command.add_option(
       "--proxy", proxy,
       "Where that world lies, so that what is near is seen from each place: sphere:RADIUS, "
       "box:X0,Y0,Z0,X1,Y1,Z1, ground:HEIGHT,RADIUS (of the camera that took the map), with @X,Y,Z for "
@@ -87,6 +91,13 @@ scene::World WorldFlags::load_one(const std::string& file, const scene::Proxy& w
 scene::Worlds WorldFlags::load(const scene::Scene& scene) const {
   const scene::Proxy shape = parse_option("--proxy", [&] { return parse_proxy(proxy); });
   scene::Worlds worlds{load_one(env, shape)};
+  if (!chain.empty()) {
+    try {
+      worlds.whole.use_chain(read_chain(chain));
+    } catch (const Error& error) {
+      throw error.file().empty() ? in_file(chain, error) : error;
+    }
+  }
   worlds.of_instance.assign(scene.instances.size(), -1);
   for (const std::string& text : own) {
     const std::size_t equals = text.find('=');

@@ -11,7 +11,7 @@ namespace welkin::cli {
 
 /// Options of the worlds that a scene's surfaces reflect.
 struct WorldFlags {
-  std::string env, proxy, filter = "auto";
+  std::string env, chain, proxy, filter = "auto";
   std::vector<std::string> own;
   double exposure = 0;
   ReadFlags read;

@@ -8,12 +8,12 @@ must synth axes card.exr --size 256 --samples 2
 must synth constant grey.exr --size 64
 
 # A mirror ball seen along +Z shows in its middle what is behind the camera, −Z, and a diffuse one the light from there; the world is smooth.
-must bake card.exr diffuse.exr --lobe lambert
+must bake card.exr light.exr --lobe lambert
 from_front=(--size 65x65 --samples 1 --position 0,0,-4 --look 0 --fov 40 --material color=1)
-must render sphere ball.pfm --env diffuse.exr --shading mirror "${from_front[@]}"
-near "the middle of a mirror ball" "$(sample_along ball.pfm 0,0,1 --from perspective,fov=40)" "$(sample_along diffuse.exr 0,0,-1)" 2e-3
+must render sphere ball.pfm --env light.exr --shading mirror "${from_front[@]}"
+near "the middle of a mirror ball" "$(sample_along ball.pfm 0,0,1 --from perspective,fov=40)" "$(sample_along light.exr 0,0,-1)" 2e-3
 must render sphere flat.pfm --env card.exr --shading diffuse "${from_front[@]}"
-near "diffuse light along the normal" "$(sample_along flat.pfm 0,0,1 --from perspective,fov=40)" "$(sample_along diffuse.exr 0,0,-1)" 2e-3
+near "diffuse light along the normal" "$(sample_along flat.pfm 0,0,1 --from perspective,fov=40)" "$(sample_along light.exr 0,0,-1)" 2e-3
 
 # The picture's alpha is what the scene covers, and a format without alpha says so.
 must render sphere alpha.exr --shading normals --size 32x32 --no-background
@@ -32,6 +32,19 @@ for shading in mirror glossy refraction diffuse globe phong; do
     --material color=1
   near "$shading in a grey world" "$(sample_along constant.pfm 0,0,1 --from perspective,fov=40)" "$(sample_along grey.exr 0,0,1)" 1e-4
 done
+
+# A chain that was baked before shows what one of its own does, to the difference of their levels; a map without roughness is none.
+must bake light.exr chain.ktx2 --lobe ggx --size 64
+rough=(--size 24x24 --samples 2 --position 0,0,-4 --look 0 --fov 40 --material color=1,metallic=1,roughness=0.5)
+must render sphere by-chain.pfm --env light.exr --chain chain.ktx2 "${rough[@]}"
+must render sphere by-own.pfm --env light.exr "${rough[@]}"
+same by-chain.pfm by-own.pfm 0.01 --from perspective,fov=40
+refuses 1 "light.exr: .*roughness" render sphere out.png --env card.exr --chain light.exr "${rough[@]}"
+
+# Photographs of a ball in place of baked views.
+must render sphere photographed.exr --env card.exr --shading warped --ball ball.pfm@0,0,-1 --ball ball.pfm@1,0,-1 --ball ball.pfm@0,1,-1 --size 24x16
+refuses 2 "three views at least" render sphere out.png --env card.exr --shading warped --ball ball.pfm@0,0,-1 --size 24x16
+refuses 2 "is not PICTURE@X,Y,Z" render sphere out.png --env card.exr --shading warped --ball ball.pfm
 
 # Objects with a world of their own, and worlds that are near.
 must render floor own.exr --env card.exr --own sphere=grey.exr@0,1,0 --proxy ground:1,20 --size 24x16

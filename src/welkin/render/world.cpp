@@ -9,6 +9,7 @@
 #include <map>
 
 #include "welkin/base/error.h"
+#include "welkin/lookup/roughness_level.h"
 #include "welkin/prefilter/bake.h"
 
 namespace welkin::scene {
@@ -82,6 +83,7 @@ class World::State {
   std::mutex mutex;
   std::optional<ConeSampler> cones;
   std::optional<Sampler> bilinear, diffuse, rough;
+  std::optional<ChainNotes> notes;  // of a chain that was given
   std::map<double, Sampler> phong;
 
   /// `made`, made by `make` if it isn't yet.
@@ -98,6 +100,16 @@ World::World(Map map, const Proxy& proxy, const std::optional<ConeSamplerOptions
   map.check();
   const ConeSamplerOptions how = cones ? *cones : usual_cones(map);
   state_ = std::make_shared<State>(std::move(map), proxy, how);
+}
+
+void World::use_chain(Chain chain) {
+  require(!chain.levels.empty(), "a chain has levels");
+  ChainNotes notes = chain.notes;
+  // Checks that they are noted, and ascend.
+  (void)level_of_roughness(notes, 0.5);
+  const std::lock_guard lock(state_->mutex);
+  state_->rough.emplace(std::move(chain));
+  state_->notes = std::move(notes);
 }
 
 const Map& World::map() const {
@@ -139,6 +151,7 @@ const Sampler& World::rough() const {
 }
 
 double World::level_of(double roughness) const {
+  if (state_->notes) return level_of_roughness(*state_->notes, std::clamp(roughness, 0.0, 1.0));
   roughness = std::clamp(roughness, 0.0, 1.0);
   const auto above = std::upper_bound(kRoughness.begin(), kRoughness.end(), roughness);
   if (above == kRoughness.end()) return static_cast<double>(kRoughness.size() - 1);

@@ -9,6 +9,7 @@
 #include "welkin/base/export.h"
 #include "welkin/filter/sampler.h"
 #include "welkin/lookup/cone_sampler.h"
+#include "welkin/map/chain.h"
 #include "welkin/map/map.h"
 #include "welkin/render/surface.h"
 
@@ -47,6 +48,11 @@ class WELKIN_API World {
   /// sphere of up to two million texels, by `probes` in others, whose levels take less memory and time to
   /// make. Throws Error (bad_value) where texels are not finite.
   explicit World(Map map, const Proxy& proxy = {}, const std::optional<ConeSamplerOptions>& cones = {});
+
+  /// Takes this chain for `rough` in place of one of its own: pre-filtered with GGX, with the roughness of
+  /// its levels noted, of the map's orientation. Before anything has asked for `rough`. Throws Error
+  /// (bad_request) for a chain without levels or without their roughness, or whose roughness falls.
+  void use_chain(Chain chain);
 
   const Map& map() const;            ///< what was given
   const Proxy& proxy() const;        ///< where it lies
