@@ -54,6 +54,26 @@ grep -q '"probeNumDistanceInteriorTexels": 14' rtx.json || fail "$(cat rtx.json)
 # Probes inside bodies are told.
 tells "1 of 1 probes see the backs" project sphere inside.exr --grid 1,1,1 --box -0.1,-0.1,-0.1,0.1,0.1,0.1 --env grey.exr --samples 1
 
+# A square over a floor, lit from above it: its shadow is that of rays, but at the border.
+cat >lit.gltf <<'GLTF'
+{"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"],
+ "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}},
+ "scene": 0, "scenes": [{"nodes": [0, 1]}],
+ "nodes": [{"mesh": 0}, {"translation": [0.4, 2.5, 0.2], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+ "buffers": [{"byteLength": 120, "uri": "data:application/octet-stream;base64,AABAwAAAAAAAAEDAAABAwAAAAAAAAEBAAABAQAAAAAAAAEBAAABAQAAAAAAAAEDAAAAAvwAAgD8AAAC/AAAAvwAAgD8AAAA/AAAAPwAAgD8AAAA/AAAAPwAAgD8AAAC/AAABAAIAAAACAAMABAAFAAYABAAGAAcA"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 24}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3", "min": [-3, 0, -3], "max": [3, 1, 3]},
+  {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}]}
+GLTF
+for shadows in map traced none off; do
+  must project lit.gltf "lit_$shadows.exr" --at 1.5,1.6,1.5 --to octahedral --size 64 --shadows "$shadows"
+done
+same lit_traced.exr lit_map.exr 0.02
+checks=$((checks + 2))
+"$welkin" diff lit_none.exr lit_map.exr --fail-above 0.05 >/dev/null 2>&1 && fail "the square throws no shadow"
+"$welkin" diff lit_off.exr lit_map.exr --fail-above 0.5 >/dev/null 2>&1 && fail "the light lights nothing"
+
 # Six images of another program are a cube.
 must convert cube.exr face_%s.exr --to cube:faces
 must convert face_%s.exr again.exr --from cube:faces --to octahedral --size 64
