@@ -171,6 +171,8 @@ void add_render(CLI::App& app) {
   render->write.add(*command);
   add_format(*command, render->format);
   command->callback([render, command] {
+    if (render->out == "-" && !render->integrator.compare.empty())
+      throw UsageError("--compare: its numbers are on standard output, where OUT can't be as well");
     render->out = output_path(render->out, render->format);
     if (!render->worlds.env.empty()) render->worlds.env = input_path(render->worlds.env);
     render->run(*command);

@@ -29,10 +29,9 @@ void IntegratorFlags::add(CLI::App& command) {
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
   command
-      .add_option(
-          "--sampling", sampling,
-          "How paths find the world's light: mis (both of the others), bsdf (where surfaces scatter), "
-          "light (where the map is bright)")
+      .add_option("--sampling", sampling,
+                  "How paths find light: mis (both of the others), bsdf (where surfaces scatter), "
+                  "light (where the map or a lamp is bright)")
       ->capture_default_str();
   command.add_option("--seed", seed, "Another number gives other paths of the same mean")
       ->capture_default_str();

@@ -38,6 +38,7 @@ refuses 2 "did you mean 'path'" render sphere out.png --env sky.exr --integrator
 refuses 2 "did you mean 'mis'" render sphere out.png --env sky.exr --integrator path --sampling miss
 refuses 2 "compares look-up or hybrid" render sphere out.png --env sky.exr --integrator path --compare c.png
 refuses 2 "add --integrator path" render sphere out.png --env sky.exr --standard-error e.pfm
+refuses 2 "where OUT can't be" render sphere - --format exr --env sky.exr --compare c.exr
 refuses 2 "is what --compare finds" render sphere out.png --env sky.exr --json
 refuses 2 "nothing in the scene shines" render sphere out.png --integrator path
 refuses 2 "infinitely far" render sphere out.png --env sky.exr --proxy sphere:5 --integrator path --sampling light
