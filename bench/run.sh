@@ -3,7 +3,7 @@
 #
 # run.sh BUILD_FOLDER [WHAT…]
 #   WHAT               resample_speed look_up view_speed motion_blur lookup_errors filter_quality round_trip every_parameterization read_speed texture_speed commands cold_convert
-#                      peers prefilter_speed prefilter_quality prefilter_narrow view_lobe_errors view_stack_speed gaussian_look_up render_truth harmonics_speed light_speed importance_speed dfg_speed bc6h set_speed bake cold bake_peers frames assemble_speed probe_grid;
+#                      peers prefilter_speed prefilter_quality prefilter_narrow view_lobe_errors view_stack_speed gaussian_look_up render_speed render_truth harmonics_speed light_speed importance_speed dfg_speed bc6h set_speed bake cold bake_peers frames assemble_speed probe_grid;
 #                      some of these are only printed
 #
 #   WELKIN_BENCH_THREADS=N   threads (2)
@@ -14,7 +14,7 @@
 set -euo pipefail
 
 everything=(resample_speed look_up view_speed motion_blur lookup_errors filter_quality round_trip every_parameterization read_speed texture_speed commands cold_convert peers
-  prefilter_speed prefilter_quality prefilter_narrow view_lobe_errors view_stack_speed gaussian_look_up render_truth harmonics_speed light_speed importance_speed dfg_speed bc6h set_speed bake cold bake_peers frames assemble_speed probe_grid)
+  prefilter_speed prefilter_quality prefilter_narrow view_lobe_errors view_stack_speed gaussian_look_up render_speed render_truth harmonics_speed light_speed importance_speed dfg_speed bc6h set_speed bake cold bake_peers frames assemble_speed probe_grid)
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 build=$(cd -- "${1:?run.sh BUILD_FOLDER [WHAT…]}" && pwd)
 shift
