@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <tuple>
 #include <unordered_map>
 
@@ -221,6 +222,37 @@ void add_shape(const tinyobj::shape_t& shape, const tinyobj::attrib_t& attribute
   }
 }
 
+/// Whether a word can begin a number as tinyobjloader reads it; it takes others for 0, in silence.
+bool begins_number(char c) {
+  return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
+}
+
+/// Throws Error (bad_value) where a vertex, normal or coordinate has a word that is no finite number.
+void check_numbers(std::string_view text) {
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    ++number;
+    std::size_t at = std::min(line.find_first_not_of(" \t"), line.size());
+    if (at == line.size() || line[at] != 'v') continue;
+    at = line.find_first_of(" \t", at);
+    while (at != std::string_view::npos) {
+      at = line.find_first_not_of(" \t\r", at);
+      if (at == std::string_view::npos || line[at] == '#') break;
+      const std::size_t end = std::min(line.find_first_of(" \t\r", at), line.size());
+      std::size_t digits = at;
+      while (digits < end && (line[digits] == '+' || line[digits] == '-')) ++digits;
+      if (!begins_number(line[at]) || (digits < end && !begins_number(line[digits])))
+        throw Error(ErrorKind::bad_value,
+                    "line " + std::to_string(number) + ": '" +
+                        std::string(line.substr(at, std::min<std::size_t>(end - at, 40))) +
+                        "' is not a finite number");
+      at = line.find_first_of(" \t", at);
+    }
+  }
+}
+
 }  // namespace
 
 Scene read_obj(const SceneInput& input) {
@@ -231,7 +263,9 @@ Scene read_obj(const SceneInput& input) {
     std::vector<tinyobj::material_t> materials;
     std::string warning, error;
     Libraries libraries(input, scene);
-    std::istringstream text(as_text(input.bytes));
+    const std::string content = as_text(input.bytes);
+    check_numbers(content);
+    std::istringstream text(content);
     if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &text, &libraries, true, false))
       throw Error(ErrorKind::damaged, "is no valid OBJ: " + error.substr(0, error.find('\n')));
     Materials reader(input, scene);

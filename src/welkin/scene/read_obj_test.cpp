@@ -64,6 +64,12 @@ TEST(ReadObj, RefusesWhatIsWrong) {
   EXPECT_EQ(fault_of(bytes_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"), "a.obj", &message),
             ErrorKind::damaged);
   EXPECT_NE(message.find("vertex 4"), std::string::npos) << message;
+  // Numbers that the library under it would take for 0.
+  for (const char* word : {"nan", "-inf", "x", "+nan"})
+    EXPECT_EQ(
+        fault_of(bytes_of(std::string("v 0 0 0\nv 1 ") + word + " 0\nv 0 1 0\nf 1 2 3\n"), "a.obj", &message),
+        ErrorKind::bad_value);
+  EXPECT_NE(message.find("line 2: '+nan'"), std::string::npos) << message;
   EXPECT_EQ(fault_of(bytes_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/9 2/9 3/9\n"), "a.obj"), ErrorKind::damaged);
   EXPECT_EQ(fault_of(bytes_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//9 2//9 3//9\n"), "a.obj"), ErrorKind::damaged);
   EXPECT_EQ(fault_of(bytes_of("v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "a.obj"), ErrorKind::unsupported) << "no faces";
