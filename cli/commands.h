@@ -2,8 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
-/// The subcommands, each in the file of its name: declares its options on `app`, and its callback parses them, calls
-/// the library and prints. A list of its own, so that another command costs the others no compiling.
+/// The subcommands, each in the file of its name: declares its options on `app`, and its callback parses
+/// them, calls the library and prints. A list of its own, so that another command costs the others no
+/// compiling.
 namespace welkin::cli {
 
 void add_assemble(CLI::App& app);

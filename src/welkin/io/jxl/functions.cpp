@@ -11,7 +11,8 @@ namespace welkin::io {
 
 const Libjxl& libjxl() {
   static const Libjxl loaded = [] {
-    const LateLibrary file("libjxl.so." WELKIN_LIBJXL_VERSION, "libjxl" WELKIN_LIBJXL_VERSION, "reads such files");
+    const LateLibrary file("libjxl.so." WELKIN_LIBJXL_VERSION, "libjxl" WELKIN_LIBJXL_VERSION,
+                           "reads such files");
     Libjxl functions;
 #define WELKIN_FIND(NAME) file.find(#NAME, functions.NAME);
     WELKIN_LIBJXL_FUNCTIONS(WELKIN_FIND)
