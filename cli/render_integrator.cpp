@@ -103,7 +103,7 @@ void IntegratorFlags::compare_with_paths(const RenderJob& job, const Image& alon
   // The difference is that of the scene alone.
   Image sides = side_by_side({shown[0].view(), shown[1].view()});
   if (job.look_up.background) {
-    for (Image& each : shown) show_behind(each, job.camera.camera, job.worlds.whole);
+    for (Image& each : shown) show_behind(each, job.camera, job.worlds.whole);
     const Image behind = side_by_side({shown[0].view(), shown[1].view()});
     const int both = sides.width() - alone.width();
     copy_pixels(behind.view().part(0, 0, both, alone.height()),
@@ -144,7 +144,7 @@ void IntegratorFlags::run(const RenderJob& job) const {
   if (compare.empty()) return write_picture(job.out, make(job, background), background, job.write, job.note);
   Image made = make(job, false);
   compare_with_paths(job, made);
-  if (background) show_behind(made, job.camera.camera, job.worlds.whole);
+  if (background) show_behind(made, job.camera, job.worlds.whole);
   write_picture(job.out, made, background, job.write, job.note);
 }
 

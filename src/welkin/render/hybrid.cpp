@@ -237,7 +237,7 @@ Image render_hybrid(const TracedScene& scene, const PlacedCamera& camera, const 
             .make(x, y, std::min(kTile, width - x), std::min(kTile, height - y), picture.view());
       },
       monitor);
-  if (options.background) show_behind(picture, camera.camera, worlds.whole, part_of(options.monitor, 0.9, 1));
+  if (options.background) show_behind(picture, camera, worlds.whole, part_of(options.monitor, 0.9, 1));
   return picture;
 }
 

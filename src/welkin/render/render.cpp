@@ -139,7 +139,7 @@ Image render(const TracedScene& scene, const PlacedCamera& camera, const World& 
       },
       monitor);
   if (!options.background) return picture;
-  show_behind(picture, camera.camera, background, part_of(options.monitor, 0.9, 1));
+  show_behind(picture, camera, background, part_of(options.monitor, 0.9, 1));
   return picture;
 }
 

@@ -164,6 +164,29 @@ TEST(TracedScene, InstancesStandWhereTheyAreMoved) {
   EXPECT_THROW(still.moved({}), Error);
 }
 
+// The background lies on the proxy too: from the map's centre it is the map, and what lies two below a camera
+// that has moved by three is where it was on the ground.
+TEST(Render, BackgroundLiesOnItsProxy) {
+  Proxy ground;
+  ground.shape = Proxy::Shape::ground;
+  ground.radius = 100;
+  ground.height = 2;
+  const World world(synth_map("axes"), ground), far(synth_map("axes"));
+  const TracedScene empty{Scene{}};
+  const auto normals = make_shading("normals", {world});
+  PlacedCamera camera = ball_camera(33);
+  camera.position = {0, 0, 0};
+  camera.camera.rotation = rotation_of({0, -90, 0});
+  const Image at_centre = render(empty, camera, world, *normals),
+              plain = render(empty, camera, far, *normals);
+  // The two filters differ at the edges of letters.
+  EXPECT_LT(relative_error(at_centre, plain), 0.1);
+  camera.position = {3, 0, 0};
+  const Image moved = render(empty, camera, world, *normals);
+  const auto rgb = world.bilinear().rgb(Vec3d{3, -2, 0});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(moved.at(16, 16)[c], rgb[static_cast<std::size_t>(c)], 0.02);
+}
+
 TEST(Render, RefusesWhatMakesNoSense) {
   const World world(synth_map("studio"));
   EXPECT_THROW(make_shading("miror", {world}), Error);
