@@ -6,6 +6,7 @@
 
 #include "harness.h"
 #include "welkin/base/parallel.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/probe_grid.h"
 #include "welkin/render/texel_rays.h"
 #include "welkin/scene/built_in.h"
@@ -28,15 +29,12 @@ void trace_alone(const TracedScene& scene, const ProbeBox& probes, const ProbeGr
   parallel_for(probes.count(), [&](int index) {
     const Vec3d at =
         probes.position(index % kCounts[0], index / kCounts[0] / kCounts[2], index / kCounts[0] % kCounts[2]);
-    const Vec3<float> origin{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+    const Vec3<float> origin = to_float(at);
     std::vector<Ray> rays;
     std::vector<Hit> hits;
     for (const TexelRays& block : blocks) {
       rays.clear();
-      for (const RaySpread& ray : block.rays)
-        rays.push_back({origin,
-                        {static_cast<float>(ray.direction.x), static_cast<float>(ray.direction.y),
-                         static_cast<float>(ray.direction.z)}});
+      for (const RaySpread& ray : block.rays) rays.push_back({origin, to_float(ray.direction)});
       hits.resize(rays.size());
       scene.closest(rays, hits, Coherence::close);
     }

@@ -5,6 +5,7 @@
 
 #include "harness.h"
 #include "welkin/base/parallel.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/camera_rays.h"
 #include "welkin/render/render.h"
 #include "welkin/scene/built_in.h"
@@ -17,10 +18,6 @@ using namespace welkin::bench;
 using namespace welkin::scene;
 
 constexpr int kWidth = 1920, kHeight = 1080;
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// One row of the picture's rays traced, and where `surfaces` says so, turned into surfaces.
 void trace_row(const TracedScene& scene, const CameraRays& camera, int y, bool surfaces) {

@@ -9,8 +9,8 @@
 
 #include "welkin/base/error.h"
 #include "welkin/lookup/tangent_plane.h"
-#include "welkin/lookup/vec_precision.h"
 #include "welkin/math/angles.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin {
 namespace {

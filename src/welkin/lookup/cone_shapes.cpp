@@ -6,7 +6,7 @@
 #include "welkin/base/error.h"
 #include "welkin/lobe/zonal.h"
 #include "welkin/lookup/tangent_plane.h"
-#include "welkin/lookup/vec_precision.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "welkin/lookup/block_directions.h"
-#include "welkin/lookup/vec_precision.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "welkin/base/cpu.h"
 #include "welkin/lookup/tangent_plane.h"
-#include "welkin/lookup/vec_precision.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin::test {
 namespace {

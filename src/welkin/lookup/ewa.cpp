@@ -5,8 +5,8 @@
 #include "welkin/filter/sampler.h"
 #include "welkin/lookup/elliptical_sum.h"
 #include "welkin/lookup/texel_shape.h"
-#include "welkin/lookup/vec_precision.h"
 #include "welkin/map/pyramid.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "welkin/base/cpu.h"
 #include "welkin/lookup/gaussian_state.h"
-#include "welkin/lookup/vec_precision.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin {
 namespace {

@@ -11,9 +11,9 @@
 #include "welkin/base/error.h"
 #include "welkin/filter/sampler.h"
 #include "welkin/lookup/gaussian_cases.h"
-#include "welkin/lookup/vec_precision.h"
 #include "welkin/map/borders.h"
 #include "welkin/math/rotation.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/synth/render_synth.h"
 
 namespace welkin::test {

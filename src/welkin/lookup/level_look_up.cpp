@@ -7,7 +7,7 @@
 #include "welkin/lookup/cone_filters.h"
 #include "welkin/lookup/square_octahedron.h"
 #include "welkin/lookup/trilinear.h"
-#include "welkin/lookup/vec_precision.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin {
 namespace {

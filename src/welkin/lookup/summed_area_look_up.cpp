@@ -9,7 +9,7 @@
 #include "welkin/lookup/gaussian_boxes.h"
 #include "welkin/lookup/summed_area.h"
 #include "welkin/lookup/texel_shape.h"
-#include "welkin/lookup/vec_precision.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin {
 namespace {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/math/vec_precision.h"
+
 namespace welkin::scene {
 namespace {
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {v.x, v.y, v.z};
-}
 
 double brightness(const Scene& scene, const Instance& instance) {
   const int own = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;

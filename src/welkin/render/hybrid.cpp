@@ -6,6 +6,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/backdrop.h"
 #include "welkin/render/camera_rays.h"
 #include "welkin/render/shading_look_ups.h"
@@ -20,10 +21,6 @@ constexpr int kMostLayers = 64;
 constexpr int kMostSamples = 64;
 /// Parts of a pixel's light that aren't worth a ray.
 constexpr float kLeast = 2e-3f;
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// A ray on its way, and what its radiance counts.
 struct Way {

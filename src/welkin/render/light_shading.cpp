@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "welkin/brdf/microfacet.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/shadow_map.h"
 
 namespace welkin::scene {
@@ -10,10 +11,6 @@ namespace {
 
 /// Narrower lobes are as wide as this, or a point light would have no highlight.
 constexpr double kLeastAlpha = 1e-3;
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// What a light sends to a place.
 struct Arriving {

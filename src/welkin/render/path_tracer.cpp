@@ -8,6 +8,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/bsdf.h"
 #include "welkin/render/camera_rays.h"
 #include "welkin/render/emitters.h"
@@ -24,10 +25,6 @@ constexpr int kBatches = 16;
 constexpr int kMostLayers = 64;
 /// From here on paths end by chance.
 constexpr int kRouletteDepth = 4;
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 const std::vector<std::string>& sampling_names() {
   static const std::vector<std::string> names{"mis", "bsdf", "light"};

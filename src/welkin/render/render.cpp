@@ -5,6 +5,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/backdrop.h"
 #include "welkin/render/camera_rays.h"
 
@@ -54,10 +55,6 @@ class Tile {
   std::vector<Ray> traced_;
   std::vector<Hit> hits_;
 };
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 void Tile::trace(std::vector<Way>& ways) {
   traced_.clear();

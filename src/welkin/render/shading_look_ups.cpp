@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/math/vec_precision.h"
+
 namespace welkin::scene {
 
 const World& Worlds::of(std::uint32_t instance) const {
@@ -113,7 +115,7 @@ void look_up_filtered(const Worlds& worlds, std::span<const Surface> surfaces, c
     for (const std::uint32_t i : indices) {
       const Surface& at = surfaces[i];
       const Vec3d d = seen_from(world.proxy(), at.position, look.direction(at));
-      directions.push_back({static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)});
+      directions.push_back(to_float(d));
       if (look.level) levels.push_back(static_cast<float>(look.level(world, at)));
     }
     values.resize(indices.size() * static_cast<std::size_t>(sampler.channels()));

@@ -6,6 +6,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/map/borders.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/project.h"
 
 namespace welkin::scene {
@@ -16,10 +17,6 @@ constexpr double kEdgeSlope = 1.5;
 constexpr int kSmallest = 16, kLargest = 16384;
 /// Of a distance's square: moments of floats differ by this where there is no variance.
 constexpr double kLeastVariance = 1e-5;
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// Shows nothing: a map of distances needs no light.
 class Unlit : public Shading {

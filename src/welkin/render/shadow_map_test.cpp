@@ -7,6 +7,7 @@
 #include <random>
 
 #include "welkin/base/error.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/project_cases.h"
 
 namespace welkin::scene {
@@ -29,10 +30,6 @@ Scene still_life() {
   light.intensity = {8, 8, 8};
   scene.lights.push_back(light);
   return scene;
-}
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 /// Places that the light may reach, as a viewer all around sees them.

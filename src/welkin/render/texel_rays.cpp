@@ -5,6 +5,7 @@
 
 #include "welkin/base/parallel.h"
 #include "welkin/filter/resample.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/sphere/kernels.h"
 
 namespace welkin::scene {
@@ -18,10 +19,6 @@ constexpr float kOneSide = 0.9f, kOneDistance = 1.25f;
 constexpr std::int64_t kMostSkyTexels = 1 << 22;
 /// Rays of a block: what is known of them stays in a processor's second cache.
 constexpr int kBlockSide = 16, kBlockRays = 128;
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 }  // namespace
 

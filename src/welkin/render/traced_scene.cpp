@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "welkin/base/error.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/traced_scene_state.h"
 
 namespace welkin::scene {
@@ -15,14 +16,6 @@ constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 31;
 constexpr std::size_t kStream = 256;
 
 using Float3 = Vec3<float>;
-
-Float3 to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-Vec3d to_double(const Float3& v) {
-  return {v.x, v.y, v.z};
-}
 
 Vec3d unit_or(const Vec3d& v, const Vec3d& otherwise) {
   const double size = length(v);

@@ -1,14 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/math/vec_precision.h"
 #include "welkin/render/traced_scene_state.h"
 
 namespace welkin::scene {
 namespace {
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {v.x, v.y, v.z};
-}
 
 Vec3d unit_or(const Vec3d& v, const Vec3d& otherwise) {
   const double size = length(v);

@@ -6,6 +6,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/scene/shapes.h"
 
 namespace welkin::scene {
@@ -186,9 +187,6 @@ Mesh implicit_mesh(const Distance& distance, const Bounds& box, int cells) {
 
   Mesh mesh;
   mesh.name = "implicit surface";
-  const auto to_float = [](const Vec3d& v) {
-    return Vec3<float>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
   for (const auto& block : blocks) {
     if (!block) continue;
     block->first = static_cast<std::uint32_t>(mesh.positions.size());

@@ -5,6 +5,7 @@
 
 #include "welkin/base/parallel.h"
 #include "welkin/math/angles.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/scene/aimed_camera.h"
 #include "welkin/scene/scene_parts.h"
 #include "welkin/scene/shapes.h"
@@ -194,9 +195,6 @@ std::vector<Standing> plants() {
 void merge(Mesh& mesh, const Mesh& other, const Vec3d& scale, const Vec3d& at) {
   const Transform to = placed(at, scale);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  const auto to_float = [](const Vec3d& v) {
-    return Vec3<float>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
   for (std::size_t i = 0; i < other.positions.size(); ++i) {
     const Vec3<float>&p = other.positions[i], &n = other.normals[i];
     mesh.positions.push_back(to_float(point_to(to, {p.x, p.y, p.z})));

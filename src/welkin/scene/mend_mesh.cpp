@@ -2,18 +2,11 @@
 #include <cmath>
 
 #include "welkin/base/error.h"
+#include "welkin/math/vec_precision.h"
 #include "welkin/scene/scene_input.h"
 
 namespace welkin::scene {
 namespace {
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {v.x, v.y, v.z};
-}
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 bool finite(const Vec3d& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -5,16 +5,13 @@
 #include <limits>
 
 #include "welkin/base/error.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin::scene {
 namespace {
 
 bool finite(const Vec3d& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-Vec3d to_double(const Vec3<float>& v) {
-  return {v.x, v.y, v.z};
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& why) {

@@ -3,15 +3,12 @@
 #include <cmath>
 
 #include "welkin/base/error.h"
+#include "welkin/math/vec_precision.h"
 
 namespace welkin::scene {
 namespace {
 
 constexpr int kMostCells = 10'000'000;
-
-Vec3<float> to_float(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 bool has_area(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const auto& p = mesh.positions;

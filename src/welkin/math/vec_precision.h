@@ -2,7 +2,7 @@
 
 #include "welkin/math/vec.h"
 
-/// Vectors between float, as cones have them, and double. Internal to lookup.
+/// Vectors between float, as cones have them, and double..
 namespace welkin {
 
 inline Vec3<float> to_float(const Vec3d& v) {
