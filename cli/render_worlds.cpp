@@ -113,10 +113,7 @@ scene::Worlds WorldFlags::load(const scene::Scene& scene) const {
     bool found = false;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
       const scene::Instance& instance = scene.instances[i];
-      const int material = instance.material >= 0
-                               ? instance.material
-                               : scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-      if (instance.name != name && scene.materials[static_cast<std::size_t>(material)].name != name) continue;
+      if (instance.name != name && material_of(scene, instance).name != name) continue;
       worlds.of_instance[i] = static_cast<int>(worlds.own.size());
       found = true;
     }

@@ -8,6 +8,7 @@
 #include "welkin/camera/view.h"
 #include "welkin/lookup/cone_shapes.h"
 #include "welkin/render/camera_rays.h"
+#include "welkin/render/proxy_rays.h"
 
 namespace welkin::scene {
 namespace {
@@ -32,12 +33,7 @@ Map seen_on_proxy(const MapFrame& frame, const Vec3d& position, const World& wor
         std::vector<std::size_t> columns;
         for (std::size_t x = 0; x < rays.size(); ++x) {
           if (!valid[x]) continue;
-          const auto on_proxy = [&](const Vec3d& change) {
-            return seen_from(world.proxy(), position, rays[x].direction + change);
-          };
-          const Vec3d middle = on_proxy({0, 0, 0});
-          seen.push_back(cone_of(RayDifferential{middle, on_proxy(rays[x].direction_change.right) - middle,
-                                                 on_proxy(rays[x].direction_change.down) - middle}));
+          seen.push_back(cone_of(seen_from(world.proxy(), {position}, direction_of(rays[x]))));
           columns.push_back(x);
         }
         std::vector<float> values(seen.size() * channels);

@@ -9,9 +9,7 @@ namespace welkin::scene {
 namespace {
 
 double brightness(const Scene& scene, const Instance& instance) {
-  const int own = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-  const int material = instance.material >= 0 ? instance.material : own;
-  const auto& emission = scene.materials[static_cast<std::size_t>(material)].emission;
+  const auto& emission = material_of(scene, instance).emission;
   return 0.2126 * emission[0] + 0.7152 * emission[1] + 0.0722 * emission[2];
 }
 

@@ -5,20 +5,17 @@
 #include <vector>
 
 #include "welkin/base/error.h"
-#include "welkin/base/parallel.h"
 #include "welkin/math/vec_precision.h"
 #include "welkin/render/backdrop.h"
-#include "welkin/render/camera_rays.h"
+#include "welkin/render/picture_tiles.h"
 #include "welkin/render/shading_look_ups.h"
 #include "welkin/render/smooth_layers.h"
 
 namespace welkin::scene {
 namespace {
 
-constexpr int kTile = 16;
 /// Surfaces that don't cover all, behind one another.
 constexpr int kMostLayers = 64;
-constexpr int kMostSamples = 64;
 /// Parts of a pixel's light that aren't worth a ray.
 constexpr float kLeast = 2e-3f;
 
@@ -55,8 +52,8 @@ class Tile {
        const HybridOptions& options)
       : scene_(scene), camera_(camera), worlds_(worlds), shading_(shading), options_(options) {}
 
-  /// R G B A of width × height pixels from (x0, y0) to `out`.
-  void make(int x0, int y0, int width, int height, ImageView<float> out);
+  /// R G B A of a tile to `out`.
+  void make(const PictureTile& tile, ImageView<float> out);
 
  private:
   void trace();
@@ -159,21 +156,13 @@ void Tile::trace() {
   std::swap(ways_, next_);
 }
 
-void Tile::make(int x0, int y0, int width, int height, ImageView<float> out) {
+void Tile::make(const PictureTile& tile, ImageView<float> out) {
   const int samples = options_.samples;
   const auto per_pixel = static_cast<std::uint32_t>(samples * samples);
-  std::vector<PicturePlace> places;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int j = 0; j < samples; ++j)
-        for (int i = 0; i < samples; ++i)
-          places.push_back(
-              {static_cast<float>(x0 + x) + (static_cast<float>(i) + 0.5f) / static_cast<float>(samples),
-               static_cast<float>(y0 + y) + (static_cast<float>(j) + 0.5f) / static_cast<float>(samples)});
   std::vector<RaySpread> rays;
   std::vector<bool> valid;
-  camera_.rays(places, 1.0 / samples, rays, valid);
-  sums_.assign(static_cast<std::size_t>(width * height), {});
+  camera_.rays(places_of(tile, samples), 1.0 / samples, rays, valid);
+  sums_.assign(static_cast<std::size_t>(tile.width * tile.height), {});
   alphas_.assign(sums_.size(), 0);
   const float share = 1 / static_cast<float>(per_pixel);
   for (std::uint32_t i = 0; i < rays.size(); ++i)
@@ -188,17 +177,14 @@ void Tile::make(int x0, int y0, int width, int height, ImageView<float> out) {
   radiance.resize(std::max({rough_.surfaces.size(), diffuse_.surfaces.size(), far_.surfaces.size()}));
   if (!rough_.surfaces.empty()) shading_.shade(rough_.surfaces, radiance);
   collect(rough_);
-  look_up_filtered(worlds_, diffuse_.surfaces,
-                   {[](const World& world) -> const Sampler& { return world.diffuse(); },
-                    [](const Surface& at) { return at.normal; }, nullptr},
-                   radiance);
+  look_up_filtered(worlds_, diffuse_.surfaces, diffuse_light(), radiance);
   collect(diffuse_);
   look_up_cones(worlds_, far_.surfaces, cones_, {}, radiance);
   collect(far_);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const auto i = static_cast<std::size_t>(y * width + x);
-      float* to = out.at(x0 + x, y0 + y);
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * tile.width + x);
+      float* to = out.at(tile.x + x, tile.y + y);
       std::copy(sums_[i].begin(), sums_[i].end(), to);
       to[3] = alphas_[i];
     }
@@ -216,24 +202,15 @@ Image render_hybrid(const TracedScene& scene, const PlacedCamera& camera, const 
   const MapFrame frame = frame_of(camera.camera);
   const CameraRays rays(frame, camera.position);
   prepare_smooth_layers();
-  worlds.whole.cones();
-  worlds.whole.diffuse();
-  for (const World& world : worlds.own) {
+  for_each_world(worlds, [](const World& world) {
     world.cones();
     world.diffuse();
-  }
-  const int width = frame.size.width, height = frame.size.height;
-  Image picture(width, height, 4);
-  const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
-  const Monitor monitor = part_of(options.monitor, 0, options.background ? 0.9 : 1);
-  parallel_for(
-      columns * rows,
-      [&](int index) {
-        const int x = index % columns * kTile, y = index / columns * kTile;
-        Tile(scene, rays, worlds, shading, options)
-            .make(x, y, std::min(kTile, width - x), std::min(kTile, height - y), picture.view());
-      },
-      monitor);
+  });
+  Image picture(frame.size.width, frame.size.height, 4);
+  for_each_tile(frame.size, part_of(options.monitor, 0, options.background ? 0.9 : 1),
+                [&](const PictureTile& tile) {
+                  Tile(scene, rays, worlds, shading, options).make(tile, picture.view());
+                });
   if (options.background) show_behind(picture, camera, worlds.whole, part_of(options.monitor, 0.9, 1));
   return picture;
 }

@@ -13,20 +13,34 @@ double cosine_of(const Surface& at) {
   return std::clamp(dot(at.normal, at.view), 0.0, 1.0);
 }
 
-const Sampler& diffuse_of(const World& world) {
-  return world.diffuse();
+/// Times the base colour.
+void tint(std::span<const Surface> surfaces, std::span<Rgb> radiance) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    radiance[i] = surfaces[i].material.base_color * radiance[i];
 }
 
-const FilteredLook kDiffuse{diffuse_of, [](const Surface& at) { return at.normal; }, nullptr};
+/// Reflected light as the options combine it with what lies under it: alone, of the base colour, or with
+/// Fresnel's factor and diffuse light.
+void over_diffuse(const Worlds& worlds, const ShadingOptions& options, std::span<const Surface> surfaces,
+                  std::span<Rgb> radiance) {
+  if (options.fresnel == Fresnel::none) return tint(surfaces, radiance);
+  std::vector<Rgb> diffuse(surfaces.size());
+  look_up_filtered(worlds, surfaces, diffuse_light(), diffuse);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const double f = brdf::fresnel_dielectric(cosine_of(surfaces[i]), options.eta);
+    const double rest = options.fresnel == Fresnel::share ? 1 - f : 1;
+    radiance[i] = f * radiance[i] + rest * (surfaces[i].material.base_color * diffuse[i]);
+  }
+}
 
 /// `mirror`: the world over the pixel's reflected cone; Fresnel's part of it over diffuse light.
 class Mirror : public Shading {
  public:
   Mirror(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
-    for (const World* world : all_worlds()) {
-      world->cones();
-      if (options_.fresnel != Fresnel::none) world->diffuse();
-    }
+    for_each_world(worlds_, [&](const World& world) {
+      world.cones();
+      if (options.fresnel != Fresnel::none) world.diffuse();
+    });
   }
 
   void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
@@ -34,27 +48,10 @@ class Mirror : public Shading {
     for (std::uint32_t i = 0; i < surfaces.size(); ++i)
       cones.push_back({i, reflected(surfaces[i]), normal_spread(surfaces[i])});
     look_up_cones(worlds_, surfaces, cones, options_, radiance);
-    if (options_.fresnel == Fresnel::none) {
-      for (std::size_t i = 0; i < surfaces.size(); ++i)
-        radiance[i] = surfaces[i].material.base_color * radiance[i];
-      return;
-    }
-    std::vector<Rgb> diffuse(surfaces.size());
-    look_up_filtered(worlds_, surfaces, kDiffuse, diffuse);
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-      const double f = brdf::fresnel_dielectric(cosine_of(surfaces[i]), options_.eta);
-      const double rest = options_.fresnel == Fresnel::share ? 1 - f : 1;
-      radiance[i] = f * radiance[i] + rest * (surfaces[i].material.base_color * diffuse[i]);
-    }
+    over_diffuse(worlds_, options_, surfaces, radiance);
   }
 
  private:
-  std::vector<const World*> all_worlds() const {
-    std::vector<const World*> all{&worlds_.whole};
-    for (const World& world : worlds_.own) all.push_back(&world);
-    return all;
-  }
-
   Worlds worlds_;
   ShadingOptions options_;
 };
@@ -64,8 +61,7 @@ class Mirror : public Shading {
 class Glossy : public Shading {
  public:
   Glossy(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
-    worlds_.whole.cones();
-    for (const World& world : worlds_.own) world.cones();
+    for_each_world(worlds_, [](const World& world) { world.cones(); });
     const lobe::AnyLobe ggx = lobe::AnyLobe::make("ggx");
     for (std::size_t i = 1; i < sigma_.size(); ++i)
       sigma_[i] = lobe_sigma_of(ggx.with_roughness(static_cast<double>(i) / (kSteps - 1)));
@@ -78,8 +74,7 @@ class Glossy : public Shading {
       cones.push_back({i, reflected(surfaces[i]), std::sqrt(bumps * bumps + lobe * lobe)});
     }
     look_up_cones(worlds_, surfaces, cones, options_, radiance);
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-      radiance[i] = surfaces[i].material.base_color * radiance[i];
+    tint(surfaces, radiance);
   }
 
  private:
@@ -100,8 +95,7 @@ class Glossy : public Shading {
 class Refraction : public Shading {
  public:
   Refraction(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
-    worlds_.whole.cones();
-    for (const World& world : worlds_.own) world.cones();
+    for_each_world(worlds_, [](const World& world) { world.cones(); });
   }
 
   void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
@@ -130,14 +124,12 @@ class Refraction : public Shading {
 class Diffuse : public Shading {
  public:
   Diffuse(const Worlds& worlds, const ShadingOptions&) : worlds_(worlds) {
-    worlds_.whole.diffuse();
-    for (const World& world : worlds_.own) world.diffuse();
+    for_each_world(worlds_, [](const World& world) { world.diffuse(); });
   }
 
   void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
-    look_up_filtered(worlds_, surfaces, kDiffuse, radiance);
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-      radiance[i] = surfaces[i].material.base_color * radiance[i];
+    look_up_filtered(worlds_, surfaces, diffuse_light(), radiance);
+    tint(surfaces, radiance);
   }
 
  private:
@@ -174,12 +166,10 @@ class Globe : public Shading {
 class Phong : public Shading {
  public:
   Phong(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
-    const auto prepare = [&](const World& world) {
+    for_each_world(worlds_, [&](const World& world) {
       world.phong(options.exponent);
       if (options.fresnel != Fresnel::none) world.diffuse();
-    };
-    prepare(worlds_.whole);
-    for (const World& world : worlds_.own) prepare(world);
+    });
   }
 
   void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
@@ -188,18 +178,7 @@ class Phong : public Shading {
                      {[exponent](const World& world) -> const Sampler& { return world.phong(exponent); },
                       [](const Surface& at) { return reflected(at).direction; }, nullptr},
                      radiance);
-    if (options_.fresnel == Fresnel::none) {
-      for (std::size_t i = 0; i < surfaces.size(); ++i)
-        radiance[i] = surfaces[i].material.base_color * radiance[i];
-      return;
-    }
-    std::vector<Rgb> diffuse(surfaces.size());
-    look_up_filtered(worlds_, surfaces, kDiffuse, diffuse);
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-      const double f = brdf::fresnel_dielectric(cosine_of(surfaces[i]), options_.eta);
-      const double rest = options_.fresnel == Fresnel::share ? 1 - f : 1;
-      radiance[i] = f * radiance[i] + rest * (surfaces[i].material.base_color * diffuse[i]);
-    }
+    over_diffuse(worlds_, options_, surfaces, radiance);
   }
 
  private:

@@ -25,12 +25,10 @@ class MaterialShading : public Shading {
  public:
   MaterialShading(const Worlds& worlds, const ShadingOptions& options) : worlds_(worlds), options_(options) {
     split_sums();
-    const auto prepare = [](const World& world) {
+    for_each_world(worlds_, [](const World& world) {
       world.rough();
       world.diffuse();
-    };
-    prepare(worlds_.whole);
-    for (const World& world : worlds_.own) prepare(world);
+    });
   }
 
   void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override;
@@ -59,10 +57,7 @@ void MaterialShading::shade(std::span<const Surface> surfaces, std::span<Rgb> ra
                       return world.level_of(widened(at.material.roughness, at, reflected(at)));
                     }},
                    layers.specular);
-  look_up_filtered(worlds_, surfaces,
-                   {[](const World& world) -> const Sampler& { return world.diffuse(); },
-                    [](const Surface& at) { return at.normal; }, nullptr},
-                   layers.diffuse);
+  look_up_filtered(worlds_, surfaces, diffuse_light(), layers.diffuse);
   const auto any = [&](auto share) { return std::any_of(surfaces.begin(), surfaces.end(), share); };
   if (any([](const Surface& at) { return at.material.clearcoat > 0; }))
     look_up_filtered(

@@ -4,19 +4,15 @@
 #include <cmath>
 
 #include "welkin/base/error.h"
-#include "welkin/base/parallel.h"
 #include "welkin/math/vec_precision.h"
 #include "welkin/render/backdrop.h"
-#include "welkin/render/camera_rays.h"
+#include "welkin/render/picture_tiles.h"
 
 namespace welkin::scene {
 namespace {
 
-/// Pixels of a tile's side.
-constexpr int kTile = 16;
 /// Surfaces behind one another that a ray goes through.
 constexpr int kMostLayers = 32;
-constexpr int kMostSamples = 64;
 
 /// One tile of a picture.
 class Tile {
@@ -29,8 +25,8 @@ class Tile {
         reflection_(options.reflection),
         samples_(options.samples) {}
 
-  /// R G B A of width × height pixels from (x0, y0) to `out`.
-  void make(int x0, int y0, int width, int height, ImageView<float> out);
+  /// R G B A of a tile to `out`.
+  void make(const PictureTile& tile, ImageView<float> out);
 
  private:
   /// A ray on its way.
@@ -88,16 +84,8 @@ void Tile::trace(std::vector<Way>& ways) {
   ways.resize(left);
 }
 
-void Tile::make(int x0, int y0, int width, int height, ImageView<float> out) {
-  std::vector<PicturePlace> places;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int j = 0; j < samples_; ++j)
-        for (int i = 0; i < samples_; ++i)
-          places.push_back(
-              {static_cast<float>(x0 + x) + (static_cast<float>(i) + 0.5f) / static_cast<float>(samples_),
-               static_cast<float>(y0 + y) + (static_cast<float>(j) + 0.5f) / static_cast<float>(samples_)});
-  camera_.rays(places, 1.0 / samples_, rays_, valid_);
+void Tile::make(const PictureTile& tile, ImageView<float> out) {
+  camera_.rays(places_of(tile, samples_), 1.0 / samples_, rays_, valid_);
   std::vector<Way> ways;
   for (std::uint32_t i = 0; i < rays_.size(); ++i)
     if (valid_[i]) ways.push_back({i, 1, 0});
@@ -109,7 +97,7 @@ void Tile::make(int x0, int y0, int width, int height, ImageView<float> out) {
   if (!surfaces_.empty()) shading_.shade(surfaces_, radiance);
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const auto pixel = static_cast<int>(pixels_[i]);
-    float* to = out.at(x0 + pixel % width, y0 + pixel / width);
+    float* to = out.at(tile.x + pixel % tile.width, tile.y + pixel / tile.width);
     for (int c = 0; c < 3; ++c) to[c] += weights_[i] * radiance[i][static_cast<std::size_t>(c)];
     to[3] += weights_[i];
   }
@@ -123,18 +111,10 @@ Image render(const TracedScene& scene, const PlacedCamera& camera, const World& 
           "a pixel has 1 to 64 samples along each axis");
   const MapFrame frame = frame_of(camera.camera);
   const CameraRays rays(frame, camera.position);
-  const int width = frame.size.width, height = frame.size.height;
-  Image picture(width, height, 4);
-  const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
-  const Monitor monitor = part_of(options.monitor, 0, options.background ? 0.9 : 1);
-  parallel_for(
-      columns * rows,
-      [&](int index) {
-        const int x = index % columns * kTile, y = index / columns * kTile;
-        Tile(scene, rays, shading, options)
-            .make(x, y, std::min(kTile, width - x), std::min(kTile, height - y), picture.view());
-      },
-      monitor);
+  Image picture(frame.size.width, frame.size.height, 4);
+  for_each_tile(
+      frame.size, part_of(options.monitor, 0, options.background ? 0.9 : 1),
+      [&](const PictureTile& tile) { Tile(scene, rays, shading, options).make(tile, picture.view()); });
   if (!options.background) return picture;
   show_behind(picture, camera, background, part_of(options.monitor, 0.9, 1));
   return picture;

@@ -35,10 +35,14 @@ constexpr Entry kShadings[] = {
      make_warped},
     {"chrome", "cheap chrome: colours by elevation, and highlights of the scene's lights", make_chrome},
     {"matcap", "a picture of a ball, looked up by the normal", make_matcap},
-    {"window", "a sketch: the frame of a window", make_window},
-    {"cool-warm", "a sketch: from cold to warm colours (Gooch et al. 1998)", make_cool_warm},
-    {"outline", "a sketch: outlines of one width", make_outline},
-    {"hatching", "a sketch: strokes where surfaces turn away", make_hatching},
+    {"window", "a sketch: the frame of a window",
+     [](const Worlds&, const ShadingOptions& options) { return make_sketch("window", options); }},
+    {"cool-warm", "a sketch: from cold to warm colours (Gooch et al. 1998)",
+     [](const Worlds&, const ShadingOptions& options) { return make_sketch("cool-warm", options); }},
+    {"outline", "a sketch: outlines of one width",
+     [](const Worlds&, const ShadingOptions& options) { return make_sketch("outline", options); }},
+    {"hatching", "a sketch: strokes where surfaces turn away",
+     [](const Worlds&, const ShadingOptions& options) { return make_sketch("hatching", options); }},
     {"normals", "(n + 1)/2, to check geometry", make_normals},
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "welkin/math/vec_precision.h"
+#include "welkin/render/proxy_rays.h"
 
 namespace welkin::scene {
 
@@ -43,16 +44,6 @@ double normal_spread(const Surface& surface) {
 
 namespace {
 
-/// The ray as the map shows it.
-RayDifferential corrected(const Proxy& proxy, const Surface& at, const RayDifferential& ray) {
-  if (proxy.shape == Proxy::Shape::far) return ray;
-  const Vec3d middle = seen_from(proxy, at.position, ray.direction);
-  const auto moved = [&](const Vec3d& position, const Vec3d& direction) {
-    return seen_from(proxy, at.position + position, ray.direction + direction) - middle;
-  };
-  return {middle, moved(at.position_change.right, ray.right), moved(at.position_change.down, ray.down)};
-}
-
 EllipticalCone cone_over(const RayDifferential& ray, const ShadingOptions& options) {
   if (options.no_spread) return isotropic_cone(ray.direction, 0);
   // A pixel in which the direction changes by more than this sees about all of the world.
@@ -81,26 +72,31 @@ void look_up_cones(const Worlds& worlds, std::span<const Surface> surfaces,
   std::vector<std::size_t> places;
   std::vector<float> values;
   std::vector<Rgb> colours;
-  std::vector<const World*> all{&worlds.whole};
-  for (const World& world : worlds.own) all.push_back(&world);
-  for (const World* world : all) {
+  for_each_world(worlds, [&](const World& world) {
     seen.clear();
     places.clear();
     for (std::size_t i = 0; i < cones.size(); ++i) {
       const Surface& at = surfaces[cones[i].surface];
-      if (&worlds.of(at.instance) != world) continue;
-      const EllipticalCone cone = cone_over(corrected(world->proxy(), at, cones[i].ray), options);
+      if (&worlds.of(at.instance) != &world) continue;
+      const EllipticalCone cone =
+          cone_over(seen_from(world.proxy(), {at.position, at.position_change}, cones[i].ray), options);
       seen.push_back(cones[i].sigma > 0 ? blurred(cone, cones[i].sigma) : cone);
       places.push_back(i);
     }
-    if (seen.empty()) continue;
-    const ConeSampler& sampler = world->cones();
+    if (seen.empty()) return;
+    const ConeSampler& sampler = world.cones();
     values.resize(seen.size() * static_cast<std::size_t>(sampler.channels()));
     colours.resize(seen.size());
     sampler.look_up(seen, values);
     to_rgb(values, sampler.channels(), colours);
     for (std::size_t k = 0; k < places.size(); ++k) radiance[places[k]] = colours[k];
-  }
+  });
+}
+
+const FilteredLook& diffuse_light() {
+  static const FilteredLook look{[](const World& world) -> const Sampler& { return world.diffuse(); },
+                                 [](const Surface& at) { return at.normal; }, nullptr};
+  return look;
 }
 
 void look_up_filtered(const Worlds& worlds, std::span<const Surface> surfaces, const FilteredLook& look,

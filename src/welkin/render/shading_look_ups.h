@@ -23,11 +23,16 @@ std::unique_ptr<Shading> make_stack(const Worlds& worlds, const ShadingOptions& 
 std::unique_ptr<Shading> make_warped(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_chrome(const Worlds& worlds, const ShadingOptions& options);
 std::unique_ptr<Shading> make_matcap(const Worlds& worlds, const ShadingOptions& options);
-std::unique_ptr<Shading> make_window(const Worlds& worlds, const ShadingOptions& options);
-std::unique_ptr<Shading> make_cool_warm(const Worlds& worlds, const ShadingOptions& options);
-std::unique_ptr<Shading> make_outline(const Worlds& worlds, const ShadingOptions& options);
-std::unique_ptr<Shading> make_hatching(const Worlds& worlds, const ShadingOptions& options);
+/// By a built-in picture of a ball (sphere_picture).
+std::unique_ptr<Shading> make_sketch(std::string_view picture, const ShadingOptions& options);
 std::unique_ptr<Shading> make_normals(const Worlds& worlds, const ShadingOptions& options);
+
+/// use(world) of all of them.
+template <class Use>
+void for_each_world(const Worlds& worlds, const Use& use) {
+  use(worlds.whole);
+  for (const World& world : worlds.own) use(world);
+}
 
 /// Calls `use(world, indices)` once for each world that some of the surfaces have.
 void by_world(const Worlds& worlds, std::span<const Surface> surfaces,
@@ -51,7 +56,8 @@ double normal_spread(const Surface& surface);
 /// Reads a map's channels as R G B: one or two are grey.
 void to_rgb(std::span<const float> values, int channels, std::span<Rgb> radiance);
 
-/// Radiance of prefiltered light: `pick` says which sampler of a world, along `direction(i)`, at `level(i)`.
+/// Radiance of pre-filtered light: which sampler of a world, in which direction, at which level; none: the
+/// first.
 struct FilteredLook {
   std::function<const Sampler&(const World& world)> sampler;
   std::function<Vec3d(const Surface& surface)> direction;
@@ -59,6 +65,8 @@ struct FilteredLook {
 };
 void look_up_filtered(const Worlds& worlds, std::span<const Surface> surfaces, const FilteredLook& look,
                       std::span<Rgb> radiance);
+/// Diffuse light, along the normal.
+const FilteredLook& diffuse_light();
 
 /// a + b·c, channel by channel.
 inline Rgb operator+(const Rgb& a, const Rgb& b) {

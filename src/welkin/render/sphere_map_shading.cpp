@@ -41,10 +41,6 @@ class SphereMapShading : public Shading {
   bool reflected_;
 };
 
-std::unique_ptr<Shading> sketch(std::string_view name, const ShadingOptions& options) {
-  return std::make_unique<SphereMapShading>(Texture(sphere_picture(name)), options);
-}
-
 }  // namespace
 
 std::unique_ptr<Shading> make_matcap(const Worlds&, const ShadingOptions& options) {
@@ -56,17 +52,8 @@ std::unique_ptr<Shading> make_matcap(const Worlds&, const ShadingOptions& option
   return std::make_unique<SphereMapShading>(Texture(std::move(levels)), options);
 }
 
-std::unique_ptr<Shading> make_window(const Worlds&, const ShadingOptions& options) {
-  return sketch("window", options);
-}
-std::unique_ptr<Shading> make_cool_warm(const Worlds&, const ShadingOptions& options) {
-  return sketch("cool-warm", options);
-}
-std::unique_ptr<Shading> make_outline(const Worlds&, const ShadingOptions& options) {
-  return sketch("outline", options);
-}
-std::unique_ptr<Shading> make_hatching(const Worlds&, const ShadingOptions& options) {
-  return sketch("hatching", options);
+std::unique_ptr<Shading> make_sketch(std::string_view picture, const ShadingOptions& options) {
+  return std::make_unique<SphereMapShading>(Texture(sphere_picture(picture)), options);
 }
 
 }  // namespace welkin::scene

@@ -11,6 +11,16 @@
 namespace welkin::scene {
 namespace {
 
+/// What a stack's surface sends to the viewer, white. `values` is room to work in.
+Rgb sent(const ViewStack& stack, const Vec3d& normal, const Vec3d& view, double level,
+         std::vector<float>& values) {
+  values.resize(static_cast<std::size_t>(stack.channels()));
+  stack.look_up(normal, view, values, level);
+  Rgb seen{};
+  to_rgb(values, stack.channels(), {&seen, 1});
+  return stack.albedo(std::clamp(dot(normal, view), 0.0, 1.0), level) * seen;
+}
+
 /// `stack`: the world pre-filtered with a BRDF's lobe as it is seen from several angles (Kautz & McCool
 /// 2000), looked up with n·v; of the base colour, without Fresnel's factor unless the BRDF has its own.
 class StackShading : public Shading {
@@ -20,11 +30,9 @@ class StackShading : public Shading {
     bake.brdf = brdf::AnyBrdf::make(options.brdf);
     rough_ = bake.brdf.has_roughness();
     bake.bake.size = ChartSize{128, 128};
-    const auto add = [&](const World& world) {
+    for_each_world(worlds_, [&](const World& world) {
       stacks_.emplace(&world.map(), ViewStack(bake_views(world.map(), bake)));
-    };
-    add(worlds_.whole);
-    for (const World& world : worlds_.own) add(world);
+    });
   }
 
   void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
@@ -32,13 +40,8 @@ class StackShading : public Shading {
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       const Surface& at = surfaces[i];
       const ViewStack& stack = stacks_.at(&worlds_.of(at.instance).map());
-      values.resize(static_cast<std::size_t>(stack.channels()));
       const double level = rough_ ? stack.level_of(std::clamp<double>(at.material.roughness, 0, 1)) : 0;
-      stack.look_up(at.normal, at.view, values, level);
-      Rgb seen{};
-      to_rgb(values, stack.channels(), {&seen, 1});
-      radiance[i] = stack.albedo(std::clamp(dot(at.normal, at.view), 0.0, 1.0), level) *
-                    (at.material.base_color * seen);
+      radiance[i] = at.material.base_color * sent(stack, at.normal, at.view, level, values);
     }
   }
 
@@ -60,20 +63,14 @@ class WarpedShading : public Shading {
     bake.brdf = brdf::AnyBrdf::make(options.brdf);
     bake.bake.chain = false;
     bake.bake.size = ChartSize{128, 128};
-    const auto add = [&](const World& world) {
+    for_each_world(worlds_, [&](const World& world) {
       const ViewStack stack(bake_views(world.map(), bake));
-      views_.emplace(
-          &world.map(),
-          view_maps(even_directions(options.views), kMapSize, [&](const Vec3d& normal, const Vec3d& view) {
-            std::vector<float> values(static_cast<std::size_t>(stack.channels()));
-            stack.look_up(normal, view, values);
-            Rgb seen{};
-            to_rgb(values, stack.channels(), {&seen, 1});
-            return stack.albedo(std::clamp(dot(normal, view), 0.0, 1.0)) * seen;
-          }));
-    };
-    add(worlds_.whole);
-    for (const World& world : worlds_.own) add(world);
+      views_.emplace(&world.map(), view_maps(even_directions(options.views), kMapSize,
+                                             [&](const Vec3d& normal, const Vec3d& view) {
+                                               std::vector<float> values;
+                                               return sent(stack, normal, view, 0, values);
+                                             }));
+    });
   }
 
   void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {

@@ -6,6 +6,7 @@
 #include "welkin/base/parallel.h"
 #include "welkin/filter/resample.h"
 #include "welkin/math/vec_precision.h"
+#include "welkin/render/proxy_rays.h"
 #include "welkin/sphere/kernels.h"
 
 namespace welkin::scene {
@@ -95,9 +96,7 @@ TexelEye::TexelEye(const ShadedScene& seen, const FineSky* sky, double farthest,
     : seen_(seen), sky_(sky), farthest_(farthest), shade_once_(shade_once) {
   const Scene& scene = seen.scene.scene();
   for (const Instance& instance : scene.instances) {
-    const int own = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-    const Material& material =
-        scene.materials[static_cast<std::size_t>(instance.material >= 0 ? instance.material : own)];
+    const Material& material = material_of(scene, instance);
     opaque_.push_back(!material.masked && !material.blended);
     two_sided_.push_back(material.two_sided);
   }
@@ -211,13 +210,7 @@ void TexelEye::add_background(const TexelRays& texels, const Vec3d& position, st
       for (std::size_t c = 0; c < 3; ++c) to.radiance[c] += weight * value[sky.channels() >= 3 ? c : 0];
       continue;
     }
-    const RaySpread& ray = texels.rays[way.ray];
-    const Vec3d middle = seen_from(world->proxy(), position, ray.direction);
-    const auto moved = [&](const Vec3d& by) {
-      return far ? by : seen_from(world->proxy(), position, ray.direction + by) - middle;
-    };
-    cones.push_back(cone_of(
-        RayDifferential{middle, moved(ray.direction_change.right), moved(ray.direction_change.down)}));
+    cones.push_back(cone_of(seen_from(world->proxy(), {position}, direction_of(texels.rays[way.ray]))));
     from.push_back(i);
   }
   if (cones.empty()) return;

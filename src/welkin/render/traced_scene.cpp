@@ -24,8 +24,7 @@ Vec3d unit_or(const Vec3d& v, const Vec3d& otherwise) {
 
 WorldMesh world_mesh(const Scene& scene, const Instance& instance, const Transform& to) {
   const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-  const int material = instance.material >= 0 ? instance.material : mesh.material;
-  WorldMesh world{&mesh, &scene.materials[static_cast<std::size_t>(material)], {}, {}, {}, mesh.triangles};
+  WorldMesh world{&mesh, &material_of(scene, instance), {}, {}, {}, mesh.triangles};
   for (const Float3& p : mesh.positions) world.positions.push_back(to_float(point_to(to, to_double(p))));
   world.positions.push_back({0, 0, 0});
   for (const Float3& n : mesh.normals)

@@ -146,6 +146,12 @@ struct Scene {
   WELKIN_API void check() const;
 };
 
+/// What an instance is made of. Indices are those of the scene.
+inline const Material& material_of(const Scene& scene, const Instance& instance) {
+  const int own = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+  return scene.materials[static_cast<std::size_t>(instance.material >= 0 ? instance.material : own)];
+}
+
 /// The box around all instances.
 struct Bounds {
   Vec3d least;  ///< of each coordinate
