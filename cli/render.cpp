@@ -7,6 +7,7 @@
 
 #include "bake_set.h"
 #include "command.h"
+#include "picture_file.h"
 #include "progress.h"
 #include "render_frames.h"
 #include "render_integrator.h"
@@ -33,18 +34,6 @@ struct Render {
   scene::ShadingOptions shading_options() const;
 };
 
-/// The file's picture, as many of R G B A as it has.
-std::shared_ptr<const Image> read_picture(const std::string& file) {
-  const std::unique_ptr<io::Reader> reader = io::open(std::filesystem::path(file));
-  const io::PartInfo& part = reader->info().parts.at(0);
-  std::vector<int> channels;
-  for (int c = 0; c < static_cast<int>(std::min<std::size_t>(part.channels.size(), 3)); ++c)
-    channels.push_back(c);
-  auto image = std::make_shared<Image>(part.width, part.height, static_cast<int>(channels.size()));
-  reader->read(0, channels, image->view());
-  return image;
-}
-
 scene::ShadingOptions Render::shading_options() const {
   scene::ShadingOptions options;
   options.eta = eta;
@@ -57,7 +46,7 @@ scene::ShadingOptions Render::shading_options() const {
   const auto found = std::find(names.begin(), names.end(), fresnel);
   if (found == names.end()) throw UsageError("--fresnel: " + unknown_name("combination", fresnel, names));
   options.fresnel = static_cast<scene::Fresnel>(found - names.begin());
-  if (!picture.empty()) options.picture = read_picture(picture);
+  if (!picture.empty()) options.picture = std::make_shared<const Image>(read_picture(picture, 3));
   for (const std::string& ball : balls) {
     const std::size_t at = ball.rfind('@');
     if (at == std::string::npos) throw UsageError("--ball: '" + ball + "' is not PICTURE@X,Y,Z");
@@ -65,9 +54,7 @@ scene::ShadingOptions Render::shading_options() const {
     if (!(length(view) > 0)) throw UsageError("--ball: '" + ball + "' is seen from no direction");
     auto map = std::make_shared<scene::ViewMap>();
     map->to_eye = scene::eye_towards(view);
-    const std::shared_ptr<const Image> image = read_picture(ball.substr(0, at));
-    map->picture = Image(image->width(), image->height(), image->channels());
-    copy_pixels(image->view(), map->picture.view());
+    map->picture = read_picture(ball.substr(0, at), 3);
     options.view_maps.push_back(std::move(map));
   }
   return options;

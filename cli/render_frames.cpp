@@ -117,12 +117,14 @@ void AnimationFlags::run(const RenderJob& job, const MakeSceneShading& shade,
       worlds.own.emplace_back(along->at(frame, without_progress(part)));
     }
     const scene::TracedScene standing = scene.moved(places);
-    const std::unique_ptr<scene::Shading> made = shade(worlds, standing);
+    // Another one only where worlds, or the shadows of lights, are this frame's own.
+    std::unique_ptr<scene::Shading> own;
+    if (motion || !scene.scene().lights.empty()) own = shade(worlds, standing);
     RenderJob each{.out = file,
                    .scene = standing,
                    .camera = job.camera,
                    .worlds = worlds,
-                   .shading = made.get(),
+                   .shading = own ? own.get() : job.shading,
                    .look_up = job.look_up,
                    .write = job.write,
                    .note = resume ? note : ""};

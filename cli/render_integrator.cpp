@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "json_text.h"
+#include "picture_file.h"
 #include "scene_flags.h"
 #include "welkin/measure/picture_errors.h"
 #include "welkin/render/backdrop.h"

@@ -1,9 +1,9 @@
 #include <fmt/core.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "command.h"
+#include "picture_file.h"
 #include "welkin/brdf/roughness_mips.h"
 #include "welkin/io/image_file.h"
 
@@ -20,23 +20,11 @@ struct Roughness {
   void run() const;
 };
 
-/// Up to `most` channels of a file of data, not colours.
-Image read_data(const std::string& file, int most) {
-  const std::unique_ptr<io::Reader> reader =
-      io::open(std::filesystem::path(file), {.colour = io::Colour::linear});
-  const io::PartInfo& part = reader->info().parts.at(0);
-  std::vector<int> channels;
-  for (int c = 0; c < most && c < static_cast<int>(part.channels.size()); ++c) channels.push_back(c);
-  Image image(part.width, part.height, static_cast<int>(channels.size()));
-  reader->read(0, channels, image.view());
-  return image;
-}
-
 void Roughness::run() const {
   check_extension(out);
   if (!io::capabilities_for(out).levels && levels != 1)
     throw UsageError(out + ": the format has no levels; write KTX2, or EXR, or --levels 1");
-  const Image normal_map = read_data(normals, 3);
+  const Image normal_map = read_picture(normals, 3, io::Colour::linear);
   Image rough;
   // A number stands for a map of one value.
   char* end = nullptr;
@@ -45,7 +33,7 @@ void Roughness::run() const {
     rough = Image(1, 1, 1);
     *rough.at(0, 0) = static_cast<float>(number);
   } else {
-    rough = read_data(roughness, 1);
+    rough = read_picture(roughness, 1, io::Colour::linear);
   }
   std::vector<Image> made;
   try {

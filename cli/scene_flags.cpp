@@ -10,7 +10,6 @@
 #include "progress.h"
 #include "welkin/scene/built_in.h"
 #include "welkin/scene/read_scene.h"
-#include "welkin/sequence/made_note.h"
 
 namespace welkin::cli {
 namespace {
@@ -182,25 +181,6 @@ scene::PlacedCamera SceneFlags::camera_of(const scene::Scene& scene) const {
     return placed;
   }
   return camera_that_sees(scene, placed.camera);
-}
-
-void write_picture(const std::string& file, const Image& picture, bool opaque, const WriteFlags& flags,
-                   const std::string& note) {
-  std::vector<std::string> channels{"R", "G", "B", "A"};
-  WriteMapOptions how = flags.parse();
-  if (!note.empty()) how.image.attributes[sequence::kFrameKey] = note;
-  Image coloured;
-  ImageView<const float> shown = picture.view();
-  if (opaque || io::capabilities_for(file).channels == io::Channels::rgb) {
-    coloured = Image(picture.width(), picture.height(), 3);
-    for (int y = 0; y < picture.height(); ++y)
-      for (int x = 0; x < picture.width(); ++x) std::copy_n(picture.at(x, y), 3, coloured.at(x, y));
-    shown = coloured.view();
-    channels.pop_back();
-    if (!opaque) print_warning(file, "the format has no alpha: what is not covered is black");
-  }
-  const io::WritePart part{.name = {}, .image = shown, .channels = channels};
-  report_losses(file, io::write(file, {&part, 1}, how.image));
 }
 
 }  // namespace welkin::cli

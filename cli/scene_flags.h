@@ -36,9 +36,4 @@ struct SceneFlags {
 /// `x,y,z`. Throws UsageError, naming the option.
 Vec3d parse_point(std::string_view option, const std::string& text);
 
-/// Writes R G B A; only R G B where it is opaque or the format has no alpha.
-/// `note`, where there is one, goes into its metadata as what the frame was made from.
-void write_picture(const std::string& file, const Image& picture, bool opaque, const WriteFlags& flags,
-                   const std::string& note = {});
-
 }  // namespace welkin::cli

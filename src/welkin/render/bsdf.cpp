@@ -26,6 +26,21 @@ std::optional<Vec3d> bend(const Vec3d& v, const Vec3d& h, double eta) {
   return normalize((ratio * c - std::sqrt(square)) * h - ratio * v);
 }
 
+/// The facet that sends light to the viewer, reflected or bent, and the cosines of both to it.
+struct GlassFacet {
+  Vec3d h;
+  double vh, lh;
+};
+/// None where light comes from the facet's other side.
+std::optional<GlassFacet> glass_facet(const Vec3d& view, const Vec3d& light, double eta) {
+  const bool above = light.z > 0;
+  Vec3d h = normalize(above ? view + light : view + eta * light);
+  if (h.z < 0) h = -1.0 * h;
+  const double vh = dot(view, h), lh = dot(light, h);
+  if (vh <= 0 || (lh > 0) != above) return std::nullopt;
+  return GlassFacet{h, vh, lh};
+}
+
 GgxFacets facets_of(double roughness, double anisotropy) {
   const double alpha = std::max(squared(roughness), squared(Bsdf::kMirrorRoughness));
   return {alpha + (1 - alpha) * squared(anisotropy), alpha};
@@ -188,11 +203,9 @@ Radiance Bsdf::value(Lobe lobe, const Vec3d& light) const {
       return (opaque_ * below_coat(light.z) * often) * often_;
     }
     case glass: {
-      Vec3d h = above ? view_ + light : view_ + eta_ * light;
-      h = normalize(h);
-      if (h.z < 0) h = -1.0 * h;
-      const double vh = dot(view_, h), lh = dot(light, h);
-      if (vh <= 0 || (lh > 0) != above) return {};
+      const auto facet = glass_facet(view_, light, eta_);
+      if (!facet) return {};
+      const auto& [h, vh, lh] = *facet;
       const double f = brdf::fresnel_dielectric(std::min(vh, 1.0), eta_), d = facets_.distribution(h);
       const double weight = glass_ * below_coat(light.z);
       if (above) {
@@ -224,11 +237,9 @@ double Bsdf::density(Lobe lobe, const Vec3d& light) const {
     case multiple:
       return light.z / (2 * kPi) + grazing_density(light.z) / 2;
     case glass: {
-      Vec3d h = above ? view_ + light : view_ + eta_ * light;
-      h = normalize(h);
-      if (h.z < 0) h = -1.0 * h;
-      const double vh = dot(view_, h), lh = dot(light, h);
-      if (vh <= 0 || (lh > 0) != above) return 0;
+      const auto facet = glass_facet(view_, light, eta_);
+      if (!facet) return 0;
+      const auto& [h, vh, lh] = *facet;
       const double f = brdf::fresnel_dielectric(std::min(vh, 1.0), eta_), p = facets_.visible(view_, h);
       if (above) return f * p / (4 * vh);
       return (1 - f) * p * squared(eta_) * -lh / squared(vh + eta_ * lh);

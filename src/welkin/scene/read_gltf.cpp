@@ -27,24 +27,18 @@ bool is_read(const std::string& extension) {
 }  // namespace
 
 Scene read_gltf(const SceneInput& input) {
-  try {
-    const GltfFile file = open_gltf(input);
-    Scene scene;
-    for (const std::string& extension : file.model.extensionsRequired)
-      if (!is_read(extension))
-        throw Error(ErrorKind::unsupported, "requires the extension " + extension + ", which is not read");
-    for (const std::string& extension : file.model.extensionsUsed)
-      if (!is_read(extension)) warn(scene, "the extension " + extension + " is not read");
-    read_gltf_materials(file, input, scene);
-    read_gltf_nodes(file, read_gltf_meshes(file, scene), scene);
-    if (!file.model.animations.empty())
-      warn(scene, "animations are not read: everything stands as it was modelled");
-    if (scene.instances.empty())
-      throw Error(ErrorKind::unsupported, "has no triangles: nothing of it could be seen");
-    return scene;
-  } catch (const Error& error) {
-    throw about(input.name, error);
-  }
+  const GltfFile file = open_gltf(input);
+  Scene scene;
+  for (const std::string& extension : file.model.extensionsRequired)
+    if (!is_read(extension))
+      throw Error(ErrorKind::unsupported, "requires the extension " + extension + ", which is not read");
+  for (const std::string& extension : file.model.extensionsUsed)
+    if (!is_read(extension)) warn(scene, "the extension " + extension + " is not read");
+  read_gltf_materials(file, input, scene);
+  read_gltf_nodes(file, read_gltf_meshes(file, scene), scene);
+  if (!file.model.animations.empty())
+    warn(scene, "animations are not read: everything stands as it was modelled");
+  return scene;
 }
 
 }  // namespace welkin::scene

@@ -256,30 +256,24 @@ void check_numbers(std::string_view text) {
 }  // namespace
 
 Scene read_obj(const SceneInput& input) {
-  try {
-    Scene scene;
-    tinyobj::attrib_t attributes;
-    std::vector<tinyobj::shape_t> shapes;
-    std::vector<tinyobj::material_t> materials;
-    std::string warning, error;
-    Libraries libraries(input, scene);
-    const std::string content = as_text(input.bytes);
-    check_numbers(content);
-    std::istringstream text(content);
-    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &text, &libraries, true, false))
-      throw Error(ErrorKind::damaged, "is no valid OBJ: " + error.substr(0, error.find('\n')));
-    Materials reader(input, scene);
-    for (const tinyobj::material_t& material : materials) scene.materials.push_back(reader.made(material));
-    scene.materials.emplace_back().name = "default";
-    Mended mended;
-    for (const tinyobj::shape_t& shape : shapes) add_shape(shape, attributes, mended, scene);
-    warn_of(scene, mended);
-    if (scene.instances.empty())
-      throw Error(ErrorKind::unsupported, "has no triangles: nothing of it could be seen");
-    return scene;
-  } catch (const Error& error) {
-    throw about(input.name, error);
-  }
+  Scene scene;
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::string warning, error;
+  Libraries libraries(input, scene);
+  const std::string content = as_text(input.bytes);
+  check_numbers(content);
+  std::istringstream text(content);
+  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &text, &libraries, true, false))
+    throw Error(ErrorKind::damaged, "is no valid OBJ: " + error.substr(0, error.find('\n')));
+  Materials reader(input, scene);
+  for (const tinyobj::material_t& material : materials) scene.materials.push_back(reader.made(material));
+  scene.materials.emplace_back().name = "default";
+  Mended mended;
+  for (const tinyobj::shape_t& shape : shapes) add_shape(shape, attributes, mended, scene);
+  warn_of(scene, mended);
+  return scene;
 }
 
 }  // namespace welkin::scene

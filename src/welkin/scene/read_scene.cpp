@@ -27,8 +27,17 @@ bool has_extension(const std::string& name, std::string_view extension) {
 }  // namespace
 
 Scene read_scene(const SceneInput& input) {
-  if (is_gltf(input.bytes)) return read_gltf(input);
-  if (has_extension(input.name, ".obj")) return read_obj(input);
+  const bool gltf = is_gltf(input.bytes);
+  if (gltf || has_extension(input.name, ".obj")) {
+    try {
+      Scene scene = gltf ? read_gltf(input) : read_obj(input);
+      if (scene.instances.empty())
+        throw Error(ErrorKind::unsupported, "has no triangles: nothing of it could be seen");
+      return scene;
+    } catch (const Error& error) {
+      throw about(input.name, error);
+    }
+  }
   if (has_extension(input.name, ".gltf") || has_extension(input.name, ".glb"))
     throw Error(ErrorKind::damaged, input.name, "doesn't begin as glTF does, with 'glTF' or '{'");
   throw Error(ErrorKind::unsupported, input.name,
