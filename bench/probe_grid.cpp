@@ -7,8 +7,8 @@
 #include "harness.h"
 #include "welkin/base/parallel.h"
 #include "welkin/math/vec_precision.h"
-#include "welkin/render/probe_grid.h"
-#include "welkin/render/texel_rays.h"
+#include "welkin/render/probes/probe_grid.h"
+#include "welkin/render/project/texel_rays.h"
 #include "welkin/scene/built_in.h"
 #include "welkin/synth/render_synth.h"
 

@@ -9,7 +9,7 @@
 #include "lighting.h"
 #include "welkin/measure/picture_errors.h"
 #include "welkin/render/hybrid.h"
-#include "welkin/render/path_tracer.h"
+#include "welkin/render/path/path_tracer.h"
 #include "welkin/scene/built_in.h"
 #include "welkin/scene/shapes.h"
 #include "welkin/synth/render_synth.h"

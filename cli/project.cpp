@@ -1,4 +1,4 @@
-#include "welkin/render/project.h"
+#include "welkin/render/project/project.h"
 
 #include <fmt/core.h>
 

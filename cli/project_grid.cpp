@@ -7,7 +7,7 @@
 
 #include "progress.h"
 #include "welkin/io/output_file.h"
-#include "welkin/render/rtxgi_probes.h"
+#include "welkin/render/probes/rtxgi_probes.h"
 
 namespace welkin::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "command.h"
-#include "welkin/render/probe_grid.h"
+#include "welkin/render/probes/probe_grid.h"
 
 namespace welkin::cli {
 

@@ -7,8 +7,8 @@
 
 #include "progress.h"
 #include "scene_flags.h"
-#include "welkin/render/project.h"
-#include "welkin/render/world_along.h"
+#include "welkin/render/project/project.h"
+#include "welkin/render/project/world_along.h"
 #include "welkin/sequence/made_note.h"
 
 namespace welkin::cli {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "command.h"
-#include "welkin/render/path_tracer.h"
+#include "welkin/render/path/path_tracer.h"
 #include "welkin/render/render.h"
 
 namespace welkin::cli {

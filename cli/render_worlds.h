@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "command.h"
-#include "welkin/render/shading.h"
+#include "welkin/render/shading/shading.h"
 #include "welkin/scene/scene.h"
 
 namespace welkin::cli {

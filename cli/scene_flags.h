@@ -6,8 +6,8 @@
 #include <string>
 
 #include "command.h"
+#include "welkin/render/project/shadow_map.h"
 #include "welkin/render/render.h"
-#include "welkin/render/shadow_map.h"
 #include "welkin/scene/scene.h"
 
 /// What commands on scenes share.

@@ -1,8 +1,8 @@
 // What a place in a room sees, as a cube with distances, and the light between the probes of a grid: project
 // OUT
 #include <welkin/map_file/map_file.h>
-#include <welkin/render/probe_light.h>
-#include <welkin/render/project.h>
+#include <welkin/render/probes/probe_light.h>
+#include <welkin/render/project/project.h>
 #include <welkin/scene/built_in.h>
 #include <welkin/synth/render_synth.h>
 

@@ -1,7 +1,7 @@
 // Pictures of a scene whose surfaces reflect a world: as a mirror, as its materials say, by paths of light,
 // and with a part of it that reflects a world of its own.
 #include <welkin/io/image_file.h>
-#include <welkin/render/path_tracer.h>
+#include <welkin/render/path/path_tracer.h>
 #include <welkin/render/render.h>
 #include <welkin/scene/built_in.h>
 #include <welkin/synth/render_synth.h>

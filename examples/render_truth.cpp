@@ -5,7 +5,7 @@
 #include <welkin/map_file/map_file.h>
 #include <welkin/measure/picture_errors.h>
 #include <welkin/render/hybrid.h>
-#include <welkin/render/path_tracer.h>
+#include <welkin/render/path/path_tracer.h>
 #include <welkin/scene/built_in.h>
 
 #include <cstdio>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "welkin/map/map.h"
-#include "welkin/render/surface.h"
+#include "welkin/render/trace/surface.h"
 
 namespace welkin::scene {
 

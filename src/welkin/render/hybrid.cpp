@@ -8,8 +8,8 @@
 #include "welkin/math/vec_precision.h"
 #include "welkin/render/backdrop.h"
 #include "welkin/render/picture_tiles.h"
-#include "welkin/render/shading_look_ups.h"
-#include "welkin/render/smooth_layers.h"
+#include "welkin/render/shading/shading_look_ups.h"
+#include "welkin/render/shading/smooth_layers.h"
 
 namespace welkin::scene {
 namespace {

@@ -4,8 +4,8 @@
 #include "welkin/base/monitor.h"
 #include "welkin/image/image.h"
 #include "welkin/render/render.h"
-#include "welkin/render/shading.h"
-#include "welkin/render/traced_scene.h"
+#include "welkin/render/shading/shading.h"
+#include "welkin/render/trace/traced_scene.h"
 
 /// @file
 /// Pictures of scenes whose mirrors show what is near by rays, and what is far by maps.

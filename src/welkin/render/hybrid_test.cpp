@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "welkin/base/error.h"
-#include "welkin/render/path_tracer.h"
+#include "welkin/render/path/path_tracer.h"
 #include "welkin/render/render_cases.h"
 
 namespace welkin::scene {

@@ -7,8 +7,8 @@
 #include "welkin/base/monitor.h"
 #include "welkin/camera/camera.h"
 #include "welkin/image/image.h"
-#include "welkin/render/shading.h"
-#include "welkin/render/traced_scene.h"
+#include "welkin/render/shading/shading.h"
+#include "welkin/render/trace/traced_scene.h"
 
 /// @file
 /// Pictures of scenes.

@@ -11,7 +11,7 @@
 #include "welkin/lookup/cone_sampler.h"
 #include "welkin/map/chain.h"
 #include "welkin/map/map.h"
-#include "welkin/render/surface.h"
+#include "welkin/render/trace/surface.h"
 
 /// @file
 /// The worlds that surfaces reflect.

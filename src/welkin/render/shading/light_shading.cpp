@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "welkin/brdf/microfacet.h"
+#include "welkin/math/vec_precision.h"
+#include "welkin/render/project/shadow_map.h"
+
+namespace welkin::scene {
+namespace {
+
+/// Narrower lobes are as wide as this, or a point light would have no highlight.
+constexpr double kLeastAlpha = 1e-3;
+
+/// What a light sends to a place.
+struct Arriving {
+  Vec3d towards;    ///< the light, of unit length
+  double distance;  ///< infinite of a directional one
+  double strength;  ///< irradiance across the way, for each unit of the light's intensity
+};
+
+/// Of a spot by its cones (glTF's KHR_lights_punctual).
+Arriving arriving(const PointLight& light, const Vec3d& position) {
+  if (light.kind == PointLight::Kind::directional)
+    return {-1.0 * light.direction, std::numeric_limits<double>::infinity(), 1};
+  const Vec3d way = light.position - position;
+  const double distance = length(way);
+  if (!(distance > 0)) return {{0, 1, 0}, 0, 0};
+  const Vec3d towards = (1 / distance) * way;
+  double strength = 1 / (distance * distance);
+  if (light.kind == PointLight::Kind::spot) {
+    const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone),
+                 cosine = -dot(towards, light.direction);
+    const double part = std::clamp((cosine - outer) / std::max(1e-3, inner - outer), 0.0, 1.0);
+    strength *= part * part;
+  }
+  return {towards, distance, strength};
+}
+
+/// BRDF times cosine.
+Rgb reflected_part(const Surface& at, const Vec3d& towards) {
+  const double nl = dot(at.normal, towards), nv = std::clamp(dot(at.normal, at.view), 1e-4, 1.0);
+  // Neither the shaded nor the true surface is lit from behind.
+  if (!(nl > 0) || !(dot(at.flat_normal, towards) > 0)) return {};
+  const Vec3d half = normalize(towards + at.view);
+  const double nh = std::clamp(dot(at.normal, half), 0.0, 1.0), vh = std::clamp(dot(at.view, half), 0.0, 1.0);
+  const MaterialPoint& material = at.material;
+  const double alpha = std::max(
+      kLeastAlpha, static_cast<double>(material.roughness) * static_cast<double>(material.roughness));
+  const double specular = brdf::ggx_distribution(nh, alpha) * brdf::ggx_visibility_correlated(nl, nv, alpha);
+  const double dielectric = brdf::f0_of_eta<double>(static_cast<double>(material.material->ior));
+  Rgb part{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double base = static_cast<double>(material.base_color[c]),
+                 metallic = static_cast<double>(material.metallic);
+    const double f0 = dielectric + metallic * (base - dielectric);
+    const double fresnel = brdf::fresnel_schlick(f0, 1.0, vh);
+    const double diffuse =
+        (1 - fresnel) * (1 - metallic) * (1 - static_cast<double>(material.transmission)) * base / kPi;
+    part[c] = static_cast<float>((diffuse + fresnel * specular) * nl);
+  }
+  return part;
+}
+
+class LightShading : public Shading {
+ public:
+  LightShading(std::unique_ptr<Shading> under, const TracedScene& scene, Shadows shadows,
+               const ShadowMapOptions& options)
+      : under_(std::move(under)), scene_(scene), shadows_(shadows) {
+    for (const PointLight& light : scene.scene().lights) {
+      std::optional<ShadowMap> map;
+      if (shadows == Shadows::map && light.kind != PointLight::Kind::directional)
+        map.emplace(scene, light.position, options);
+      maps_.push_back(std::move(map));
+    }
+  }
+
+  void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
+    under_->shade(surfaces, radiance);
+    const std::vector<PointLight>& lights = scene_.scene().lights;
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        const Arriving light = arriving(lights[k], surfaces[i].position);
+        if (!(light.strength > 0)) continue;
+        const Rgb part = reflected_part(surfaces[i], light.towards);
+        if (part == Rgb{}) continue;
+        const double seen = light.strength * visibility(k, surfaces[i], light);
+        for (std::size_t c = 0; c < 3; ++c)
+          radiance[i][c] += static_cast<float>(seen) * part[c] * lights[k].intensity[c];
+      }
+    }
+  }
+
+ private:
+  double visibility(std::size_t light, const Surface& at, const Arriving& arrives) const {
+    if (shadows_ == Shadows::none) return 1;
+    if (maps_[light]) return maps_[light]->visibility(at.position, at.flat_normal);
+    const double off = scene_.clearance(at.position);
+    const double far = arrives.distance - 2 * off;
+    Ray ray{to_float(at.position + off * at.flat_normal), to_float(arrives.towards)};
+    if (std::isfinite(far)) ray.far = static_cast<float>(std::max(0.0, far));
+    return scene_.occluded(ray) ? 0 : 1;
+  }
+
+  std::unique_ptr<Shading> under_;
+  TracedScene scene_;
+  Shadows shadows_;
+  std::vector<std::optional<ShadowMap>> maps_;
+};
+
+}  // namespace
+
+std::unique_ptr<Shading> with_lights(std::unique_ptr<Shading> shading, const TracedScene& scene,
+                                     Shadows shadows, const ShadowMapOptions& options) {
+  return std::make_unique<LightShading>(std::move(shading), scene, shadows, options);
+}
+
+}  // namespace welkin::scene
