@@ -90,7 +90,7 @@ void ball_table(const std::string& name, Map map, bool metallic) {
   const Table table({"roughness", "shading", "n·v > 0.7", "0.3 … 0.7", "< 0.3", "noise of the truth"});
   const World world(std::move(map));
   std::vector<std::string> shadings{"material"};
-  if (metallic) shadings.insert(shadings.end(), {"glossy", "mirror"});
+  if (metallic) shadings.insert(shadings.end(), {"stack", "glossy", "mirror"});
   for (const float roughness : {0.0f, 0.1f, 0.25f, 0.5f, 0.75f, 1.0f}) {
     const TracedScene scene(ball_of(metallic ? metal(roughness) : paint(roughness)));
     const PathPicture truth = path_trace(scene, ball_camera(), world, {.samples = 256, .background = false});
@@ -135,7 +135,7 @@ void scene_row(const Table& table, const std::string& name, const World& world) 
 /// White balls in a world of radiance 1: what of 1 is missing.
 void furnace_table() {
   heading("White furnace");
-  const Table table({"roughness", "metal", "dielectric", "± (standard error)"});
+  const Table table({"roughness", "metal", "dielectric", "glass", "± (standard error)"});
   Map even(sphere::AnyParameterization::make("latlong"), 32, 16, 3);
   for (int y = -kBorder; y < 16 + kBorder; ++y)
     for (int x = -kBorder; x < 32 + kBorder; ++x)
@@ -144,12 +144,14 @@ void furnace_table() {
   for (const float roughness : {0.0f, 0.1f, 0.25f, 0.5f, 0.75f, 1.0f}) {
     std::vector<std::string> cells{fixed(static_cast<double>(roughness), 2)};
     double most = 0;
-    for (const bool metallic : {true, false}) {
-      Material material = metal(roughness);
-      material.metallic = metallic ? 1 : 0;
+    Material dielectric = metal(roughness);
+    dielectric.metallic = 0;
+    Material glass = dielectric;
+    glass.transmission = 1;
+    for (const Material& material : {metal(roughness), dielectric, glass}) {
       const PathPicture made =
           path_trace(TracedScene(ball_of(material)), ball_camera(), world,
-                     {.samples = 256, .sampling = LightSampling::bsdf, .background = false});
+                     {.samples = 256, .depth = 256, .sampling = LightSampling::bsdf, .background = false});
       double sum = 0, error = 0;
       int count = 0;
       for (int y = 0; y < kSize; ++y) {

@@ -4,26 +4,19 @@
 
 #include "welkin/brdf/compensation.h"
 #include "welkin/brdf/microfacet.h"
+#include "welkin/render/path/glass_energy.h"
+#include "welkin/render/path/refraction.h"
 #include "welkin/render/shading/split_sums.h"
 
 namespace welkin::scene {
 namespace {
 
 constexpr double kCoatF0 = 0.04;
+/// Of the viewer: flatter ones are lifted to this.
+constexpr double kLeastCosine = 1e-4;
 
 double squared(double x) {
   return x * x;
-}
-
-Vec3d reflect(const Vec3d& v, const Vec3d& h) {
-  return (2 * dot(v, h)) * h - v;
-}
-
-/// Behind facets of normal h, c = v·h > 0; none where all is reflected.
-std::optional<Vec3d> bend(const Vec3d& v, const Vec3d& h, double eta) {
-  const double ratio = 1 / eta, c = dot(v, h), square = 1 - ratio * ratio * (1 - c * c);
-  if (!(square > 0)) return std::nullopt;
-  return normalize((ratio * c - std::sqrt(square)) * h - ratio * v);
 }
 
 /// The facet that sends light to the viewer, reflected or bent, and the cosines of both to it.
@@ -66,8 +59,12 @@ Vec3d grazing_direction(double u1, double u2) {
   const double z = std::max(1e-12, u1 * u1), s = std::sqrt((1 - z) * (1 + z)), phi = 2 * kPi * u2;
   return {s * std::cos(phi), s * std::sin(phi), z};
 }
-double grazing_density(double cosine) {
-  return 1 / (4 * kPi * std::sqrt(cosine));
+/// What is scattered more than once: half of it evenly, half near the horizon.
+Vec3d often_direction(double u, double u1, double u2) {
+  return u < 0.5 ? cosine_direction(u1, u2) : grazing_direction(u1, u2);
+}
+double often_density(double cosine) {
+  return cosine / (2 * kPi) + 1 / (8 * kPi * std::sqrt(cosine));
 }
 
 }  // namespace
@@ -81,7 +78,7 @@ Bsdf::Bsdf(const Surface& at) : normal_(at.normal), flat_(at.flat_normal) {
   tangent_ = c * along + s * across;
   bitangent_ = c * across - s * along;
   view_ = to_local(at.view);
-  view_.z = std::max(view_.z, 1e-4);
+  view_.z = std::max(view_.z, kLeastCosine);
   view_ = normalize(view_);
 
   facets_ = facets_of(point.roughness, material.anisotropy);
@@ -91,6 +88,7 @@ Bsdf::Bsdf(const Surface& at) : normal_(at.normal), flat_(at.flat_normal) {
   coat_ = point.clearcoat;
   eta_ = at.from_behind ? 1.0 / material.ior : material.ior;
   glass_ = (1.0 - point.metallic) * point.transmission;
+  if (glass_ > 0 && !is_mirror(glass)) set_glass_losses(material.ior, at.from_behind);
   opaque_ = 1 - glass_;
   // The opaque share is of metal, and of what dielectric isn't glass.
   const double metallic = opaque_ > 0 ? point.metallic / opaque_ : 1;
@@ -117,10 +115,26 @@ Bsdf::Bsdf(const Surface& at) : normal_(at.normal), flat_(at.flat_normal) {
   for (std::size_t i = 0; i < 3; ++i) under += base_[i] * std::max(0.0, 1 - reflected[i]) / 3;
   probability_[diffuse] = opaque_ * (1 - coat_albedo_) * under;
   probability_[multiple] = opaque_ * (1 - coat_albedo_) * lost_view_ * mean(often_);
-  probability_[glass] = glass_ * (1 - coat_albedo_);
+  probability_[glass] = glass_ * (1 - coat_albedo_) * (1 - lost_in_glass_);
+  probability_[glass_again] = glass_ * (1 - coat_albedo_) * lost_in_glass_;
   double all = 0;
   for (const double p : probability_) all += p;
   for (double& p : probability_) p = all > 0 ? p / all : 0;
+}
+
+void Bsdf::set_glass_losses(double ior, bool from_behind) {
+  const GlassEnergy& energy = glass_energy(ior);
+  before_ = &energy.before(from_behind);
+  behind_ = &energy.behind(from_behind);
+  lost_in_glass_ = before_->at(view_.z, roughness_);
+  again_through_ = energy.through(from_behind, roughness_);
+}
+
+double Bsdf::again(double cosine) const {
+  const bool above = cosine > 0;
+  const GlassLoss& side = above ? *before_ : *behind_;
+  const double mean = side.average(roughness_), share = above ? 1 - again_through_ : again_through_;
+  return mean > 0 ? share * side.at(std::abs(cosine), roughness_) / (kPi * mean) : 0;
 }
 
 Radiance Bsdf::reflectance(double cosine) const {
@@ -164,13 +178,14 @@ bool Bsdf::on_one_side(const Vec3d& world, const Vec3d& local) const {
 
 double Bsdf::below_coat(double cosine) const {
   if (coat_ == 0) return 1;
-  const double other = coat_ * split_sums().at(std::abs(cosine), coat_roughness_).reflectance(kCoatF0);
+  const double other =
+      coat_ * split_sums().at(std::max(std::abs(cosine), kLeastCosine), coat_roughness_).reflectance(kCoatF0);
   return 1 - std::max(coat_albedo_, other);
 }
 
 Radiance Bsdf::value(Lobe lobe, const Vec3d& light) const {
-  if (lobe != glass && light.z <= 0) return {};
   const bool above = light.z > 0;
+  if (!above && lobe != glass && lobe != glass_again) return {};
   switch (lobe) {
     case coat:
     case specular: {
@@ -217,14 +232,19 @@ Radiance Bsdf::value(Lobe lobe, const Vec3d& light) const {
       const double jacobian = vh * -lh / squared(vh + eta_ * lh);
       return (weight * (1 - f) * d * masked * jacobian / (view_.z * -light.z)) * tint_;
     }
+    case glass_again: {
+      const double value = glass_ * below_coat(light.z) * lost_in_glass_ * again(light.z);
+      if (above) return {value, value, value};
+      return (value / squared(eta_)) * tint_;
+    }
     default:
       return {};
   }
 }
 
 double Bsdf::density(Lobe lobe, const Vec3d& light) const {
-  if (lobe != glass && light.z <= 0) return 0;
   const bool above = light.z > 0;
+  if (!above && lobe != glass && lobe != glass_again) return 0;
   switch (lobe) {
     case coat:
     case specular: {
@@ -235,7 +255,7 @@ double Bsdf::density(Lobe lobe, const Vec3d& light) const {
     case diffuse:
       return light.z / kPi;
     case multiple:
-      return light.z / (2 * kPi) + grazing_density(light.z) / 2;
+      return often_density(light.z);
     case glass: {
       const auto facet = glass_facet(view_, light, eta_);
       if (!facet) return 0;
@@ -244,6 +264,8 @@ double Bsdf::density(Lobe lobe, const Vec3d& light) const {
       if (above) return f * p / (4 * vh);
       return (1 - f) * p * squared(eta_) * -lh / squared(vh + eta_ * lh);
     }
+    case glass_again:
+      return (above ? 1 - again_through_ : again_through_) * often_density(std::abs(light.z));
     default:
       return 0;
   }
@@ -312,7 +334,13 @@ std::optional<Vec3d> Bsdf::drawn(Lobe lobe, double u, double u1, double u2) cons
     case diffuse:
       return cosine_direction(u1, u2);
     case multiple:
-      return u < 0.5 ? cosine_direction(u1, u2) : grazing_direction(u1, u2);
+      return often_direction(u, u1, u2);
+    case glass_again: {
+      const bool through = u < again_through_;
+      const double rest = through ? u / again_through_ : (u - again_through_) / (1 - again_through_);
+      const Vec3d light = often_direction(rest, u1, u2);
+      return through ? Vec3d{light.x, light.y, -light.z} : light;
+    }
     case glass: {
       const Vec3d h = facets_.draw(view_, u1, u2);
       const double vh = dot(view_, h);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "welkin/render/path/ggx_lobe.h"
+#include "welkin/render/path/glass_energy.h"
 #include "welkin/render/radiance.h"
 #include "welkin/render/trace/surface.h"
 
@@ -26,15 +27,14 @@ struct BsdfSample {
 ///   scattered between facets more than once (Kulla & Conty 2017); under it a Lambertian base that gets what
 ///   the layer above lets through on the way in and out, (1 − R(v))(1 − R(l))/(1 − R̄);
 /// - `transmission` of the dielectric: rough glass (Walter et al. 2007) with exact Fresnel reflectance, the
-/// base
-///   colour's root at each boundary, so that a body of two has the colour. What such facets scatter more than
-///   once is lost.
+///   base colour's root at each boundary, so that a body of two has the colour; what such facets scatter more
+///   than once goes to both sides (GlassEnergy).
 ///
 /// Roughness below kMirrorRoughness is a mirror. Radiance is carried over boundaries by 1/η², as it is
 /// compressed there.
 ///
 /// **Laws**: f(v, l) = f(l, v) for two directions on one side; across, f(v, l) η² = f(l, v). ∫ f |cos| dω ≤ 1
-/// (times 1/η² across), and = 1 for white opaque materials without a coat, to the error of SplitSums' table.
+/// (times 1/η² across), and = 1 for white materials without a coat, to the error of their tables.
 /// A coat lets through min(1 − E(v), 1 − E(l)): up to 6 % is lost.
 class Bsdf {
  public:
@@ -53,8 +53,8 @@ class Bsdf {
   bool scatters() const;
 
  private:
-  enum Lobe { coat, specular, multiple, diffuse, glass, kLobes };
-  static constexpr std::array kAll{coat, specular, multiple, diffuse, glass};
+  enum Lobe { coat, specular, multiple, diffuse, glass, glass_again, kLobes };
+  static constexpr std::array kAll{coat, specular, multiple, diffuse, glass, glass_again};
 
   Vec3d to_local(const Vec3d& d) const;
   Vec3d to_world(const Vec3d& d) const;
@@ -67,6 +67,9 @@ class Bsdf {
   std::optional<BsdfSample> mirrored(Lobe lobe, double u) const;
   std::optional<Vec3d> drawn(Lobe lobe, double u, double u1, double u2) const;
   Vec3d flat_side(const Vec3d& world) const;
+  void set_glass_losses(double ior, bool from_behind);
+  /// Where light that glass scatters more than once comes from: ∫ again |cos| dω = 1.
+  double again(double cosine) const;
 
   Vec3d tangent_, bitangent_, normal_, flat_;  // the frame, in the world; the triangle's normal
   Vec3d view_;                                 // in the frame
@@ -77,6 +80,8 @@ class Bsdf {
   Radiance f0_, often_, base_;                                 // of the opaque share
   Radiance mean_under_;                                        // 1 − R̄, channel by channel
   double f90_, opaque_, lost_view_, mean_lost_, coat_albedo_;  // 1 − E(v), 1 − Ē
+  const GlassLoss *before_ = nullptr, *behind_ = nullptr;      // of rough glass
+  double lost_in_glass_ = 0, again_through_ = 0;  // of the viewer's direction; the share that is let through
   std::array<double, kLobes> probability_;
 
   Radiance reflectance(double cosine) const;

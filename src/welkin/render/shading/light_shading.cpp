@@ -2,15 +2,15 @@
 #include <cmath>
 #include <optional>
 
-#include "welkin/brdf/microfacet.h"
 #include "welkin/math/vec_precision.h"
+#include "welkin/render/path/bsdf.h"
 #include "welkin/render/project/shadow_map.h"
 
 namespace welkin::scene {
 namespace {
 
-/// Narrower lobes are as wide as this, or a point light would have no highlight.
-constexpr double kLeastAlpha = 1e-3;
+/// Smoother surfaces are as rough as this, or a point light would have no highlight.
+constexpr float kLeastRoughness = 0.03f;
 
 /// What a light sends to a place.
 struct Arriving {
@@ -37,28 +37,16 @@ Arriving arriving(const PointLight& light, const Vec3d& position) {
   return {towards, distance, strength};
 }
 
-/// BRDF times cosine.
+/// BRDF times cosine: what paths scatter.
 Rgb reflected_part(const Surface& at, const Vec3d& towards) {
-  const double nl = dot(at.normal, towards), nv = std::clamp(dot(at.normal, at.view), 1e-4, 1.0);
   // Neither the shaded nor the true surface is lit from behind.
-  if (!(nl > 0) || !(dot(at.flat_normal, towards) > 0)) return {};
-  const Vec3d half = normalize(towards + at.view);
-  const double nh = std::clamp(dot(at.normal, half), 0.0, 1.0), vh = std::clamp(dot(at.view, half), 0.0, 1.0);
-  const MaterialPoint& material = at.material;
-  const double alpha = std::max(
-      kLeastAlpha, static_cast<double>(material.roughness) * static_cast<double>(material.roughness));
-  const double specular = brdf::ggx_distribution(nh, alpha) * brdf::ggx_visibility_correlated(nl, nv, alpha);
-  const double dielectric = brdf::f0_of_eta<double>(static_cast<double>(material.material->ior));
+  const double cosine = dot(at.normal, towards);
+  if (!(cosine > 0) || !(dot(at.flat_normal, towards) > 0)) return {};
+  Surface lit = at;
+  lit.material.roughness = std::max(kLeastRoughness, at.material.roughness);
+  const Radiance value = Bsdf(lit).evaluate(towards);
   Rgb part{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double base = static_cast<double>(material.base_color[c]),
-                 metallic = static_cast<double>(material.metallic);
-    const double f0 = dielectric + metallic * (base - dielectric);
-    const double fresnel = brdf::fresnel_schlick(f0, 1.0, vh);
-    const double diffuse =
-        (1 - fresnel) * (1 - metallic) * (1 - static_cast<double>(material.transmission)) * base / kPi;
-    part[c] = static_cast<float>((diffuse + fresnel * specular) * nl);
-  }
+  for (std::size_t c = 0; c < 3; ++c) part[c] = static_cast<float>(cosine * value[c]);
   return part;
 }
 
