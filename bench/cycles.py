@@ -1,4 +1,4 @@
-"""A ball under a map by Cycles: blender -b --factory-startup -P cycles.py -- MAP OUT MATERIAL SIZE SAMPLES
+"""A ball under a map by Cycles: blender -b --factory-startup -P cycles.py -- MAP OUT MATERIAL SIZE SAMPLES SEED
 
 MAP is a lat-long in Blender's convention; MATERIAL diffuse, mirror, metal:ROUGHNESS or glass. The camera is where
 `welkin render --position 0,0,-4 --look 0 --fov 29` has it. Nothing is clamped, denoised or filtered beyond the pixel.
@@ -8,7 +8,7 @@ import sys
 import bpy
 from mathutils import Vector
 
-map_file, out, material_name, size, samples = sys.argv[sys.argv.index("--") + 1:]
+map_file, out, material_name, size, samples, seed = sys.argv[sys.argv.index("--") + 1:]
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
@@ -55,6 +55,7 @@ scene.render.engine = "CYCLES"
 cycles = scene.cycles
 cycles.device = "CPU"
 cycles.samples = int(samples)
+cycles.seed = int(seed)
 cycles.use_adaptive_sampling = False
 cycles.use_denoising = False
 cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
