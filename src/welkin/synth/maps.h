@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "welkin/synth/synth.h"
@@ -24,14 +25,14 @@ struct OptionRange {
   double low, high;
 };
 
-/// `value`, or `fallback` where value is 0. Throws Error outside `range`.
-double option_or(double value, double fallback, const OptionRange& range);
+/// `value`, or `fallback` where there is none. Throws Error outside `range`.
+double option_or(const std::optional<double>& value, double fallback, const OptionRange& range);
 
 /// `value`. Throws Error outside `range`, or when it is not finite.
 double checked_option(double value, const OptionRange& range);
 
 /// As option_or, for whole numbers that are multiples of `step`.
-int whole_option_or(double value, int fallback, int step, const OptionRange& range);
+int whole_option_or(const std::optional<double>& value, int fallback, int step, const OptionRange& range);
 
 /// The factor on a map whose intensity is one: 0 … 1e9.
 double scale_option(const SynthOptions& options, std::string_view map);

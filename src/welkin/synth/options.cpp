@@ -21,17 +21,17 @@ double checked_option(double value, const OptionRange& range) {
   return value;
 }
 
-double option_or(double value, double fallback, const OptionRange& range) {
-  return value == 0 ? fallback : checked_option(value, range);
+double option_or(const std::optional<double>& value, double fallback, const OptionRange& range) {
+  return value ? checked_option(*value, range) : fallback;
 }
 
-int whole_option_or(double value, int fallback, int step, const OptionRange& range) {
-  if (value == 0) return fallback;
-  const bool inside = value >= range.low && value <= range.high;
-  if (!inside || std::fmod(value, step) != 0) {
-    refuse(value, range, step == 1 ? "a whole number" : "an even whole number");
+int whole_option_or(const std::optional<double>& value, int fallback, int step, const OptionRange& range) {
+  if (!value) return fallback;
+  const bool inside = *value >= range.low && *value <= range.high;
+  if (!inside || std::fmod(*value, step) != 0) {
+    refuse(*value, range, step == 1 ? "a whole number" : "an even whole number");
   }
-  return static_cast<int>(value);
+  return static_cast<int>(*value);
 }
 
 double scale_option(const SynthOptions& options, std::string_view map) {

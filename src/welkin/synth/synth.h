@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,21 +20,21 @@ namespace welkin::synth {
 /// once.
 using Radiance = std::function<std::array<float, 3>(const Vec3d& d)>;
 
-/// What the maps can be asked for. Each map reads some of these and leaves the others alone; 0 where it says
-/// so means the map's own default. Angles are in degrees. Azimuth turns about +Y from +Z toward +X, as
-/// positive yaw does; elevation rises from the horizon toward +Y.
+/// What the maps can be asked for. Each map reads some of these and leaves the others alone. Without
+/// a value the map has its own default, in brackets here. Angles are in degrees. Azimuth turns about +Y from
+/// +Z toward +X, as positive yaw does; elevation rises from the horizon toward +Y.
 struct SynthOptions {
   /// lamps: which ones.
   std::uint64_t seed = 1;
-  /// checker: cells around, an even whole number (0: 36). lines: meridians, a whole number (0: 24).
-  /// zoneplate: cycles per radian at −Z (0: 64). lamps: how many, a whole number up to 1,000,000 (0: 3000).
-  double frequency = 0;
-  /// sun, sky: the sun's angular diameter, for sky 0.01…30 (0: 0.5331). lines: their width (0: 0.5). lamps:
-  /// their diameter, up to 3 (0: 0.5).
-  double angle = 0;
-  /// sun: radiance of the disc (0: 100,000). lamps: their median radiance (0: 50). Others: a factor on all of
-  /// the map (0: 1).
-  double intensity = 0;
+  /// checker: cells around, an even whole number (36). lines: meridians, a whole number (24).
+  /// zoneplate: cycles per radian at −Z (64). lamps: how many, a whole number up to 1,000,000 (3000).
+  std::optional<double> frequency = {};
+  /// sun, sky: the sun's angular diameter, for sky 0.01…30 (0.5331). lines: their width (0.5). lamps:
+  /// their diameter, up to 3 (0.5).
+  std::optional<double> angle = {};
+  /// sun: radiance of the disc (100,000). lamps: their median radiance (50). Others: a factor on all of the
+  /// map (1).
+  std::optional<double> intensity = {};
   /// sun, sky: the sun's elevation, −90…90 for sun and 0…90 for sky.
   double elevation = 40;
   /// sun, sky: the sun's azimuth.

@@ -109,6 +109,18 @@ TEST(Synth, IntensityScalesTheWholeMap) {
   }
 }
 
+TEST(Synth, ZeroIsAValueAndNoDefault) {
+  for (const char* name : {"axes", "studio", "sky", "room", "checker", "lines", "zoneplate", "constant"}) {
+    const Radiance black = make(name, {.intensity = 0});
+    for (const Vec3d& d : even_directions(500)) EXPECT_EQ(black(d), (std::array<float, 3>{0, 0, 0})) << name;
+  }
+  const Radiance sun = make("sun", {.intensity = 0, .elevation = 90});
+  EXPECT_EQ(sun({0, 1, 0})[0], 0);
+  EXPECT_NE(sun({0, -1, 0})[0], 0);
+  EXPECT_THROW(make("checker", {.frequency = 0}), Error);
+  EXPECT_THROW(make("sky", {.angle = 0}), Error);
+}
+
 TEST(Synth, ManyThreadsSeeTheSameMap) {
   const std::vector<Vec3d> directions = even_directions(5000);
   for (const std::string& name : names()) {
