@@ -93,10 +93,7 @@ ordered_json describe_levels(const BakeLevels& made, const ChainNotes& notes,
 void BakeReport::print() const {
   const BakeLevels& m = *made;
   const std::size_t count = m.levels.size();
-  if (sun) {
-    if (sun->lights.empty()) fmt::print("no sun: nothing stands out\n");
-    print_lights(*sun);
-  }
+  if (sun) print_sun(*sun);
   fmt::print("{}: {}, {} of {}, {} {}\n", printable(out), printable(notes.lobe), m.shape->text(),
              size_text(m.levels.front().size), count, count == 1 ? "level" : "levels");
   fmt::print(

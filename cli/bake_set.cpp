@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 
+#include "lights_report.h"
 #include "welkin/lighting_set/manifest.h"
 #include "welkin/lighting_set/page.h"
 #include "welkin/lighting_set/set_folder.h"
@@ -166,6 +167,7 @@ void BakeSet::run(const Map& source, const std::string& out, const SetOptions& o
   if (json) {
     fmt::print("{}", manifest);
   } else {
+    if (request.sun) print_sun(*request.sun);
     print(set, out);
   }
 }

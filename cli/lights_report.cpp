@@ -59,6 +59,11 @@ void print_lights(const LightSet& set, const Matrix3& world) {
   }
 }
 
+void print_sun(const LightSet& sun) {
+  if (sun.lights.empty()) fmt::print("no sun: nothing stands out\n");
+  print_lights(sun);
+}
+
 void warn_of_lights(const std::string& in, const LightSet& set) {
   for (std::size_t k = 0; k < set.lights.size(); ++k) {
     const ExtractedLight& light = set.lights[k];

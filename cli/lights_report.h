@@ -11,6 +11,8 @@ namespace welkin::cli {
 
 /// One line for each light, under a heading. `world`: to the coordinates that directions are printed in.
 void print_lights(const LightSet& set, const Matrix3& world = {});
+/// The light that `bake --extract-sun` took out, or that there was none.
+void print_sun(const LightSet& sun);
 /// What a light's line can't hold: clipped, cut, restored, too small. On stderr, naming the file.
 void warn_of_lights(const std::string& in, const LightSet& set);
 

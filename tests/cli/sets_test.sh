@@ -40,6 +40,7 @@ must synth sun wide.exr --size 256 --angle 8
 run bake wide.exr sunny/ --size 16 --extract-sun --verify=4 --exposure 1
 checks=$((checks + 1))
 ((status == 0)) || fail "--extract-sun: $(cat "$work/messages")"
+grep -qE "^ +1 .* disc 7.98" "$work/out" || fail "a set doesn't tell its sun: $(head -n 2 "$work/out")"
 equal 'the sun' "$(jq -r '.sun.direction | map(. * 1000 | round) | join(" ")' sunny/manifest.json)" \
   "$("$welkin" lights wide.exr --most 1 --json | jq -r '.lights[0].direction | map(. * 1000 | round) | join(" ")')"
 equal 'verified levels' "$(jq '[.files[0].levels[].verification.random_texels] | length' sunny/manifest.json)" 5
