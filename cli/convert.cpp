@@ -7,12 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "convert_coefficients.h"
 #include "convert_curve.h"
 #include "energy_report.h"
 #include "json_text.h"
 #include "progress.h"
 #include "sanitize_flags.h"
 #include "welkin/filter/resample.h"
+#include "welkin/harmonics/coefficients_file.h"
 #include "welkin/harmonics/file_irradiance.h"
 #include "welkin/map/adjust.h"
 #include "welkin/map_file/kept_convention.h"
@@ -46,6 +48,10 @@ struct Convert {
   bool allow_ringing = false, verify = false, json = false;
 
   void run() const;
+  void run_of_coefficients(const CLI::App& command) const {
+    check_coefficients_options(command);
+    CoefficientsToMap{in, out, to, size, rotation, convention, scale * std::exp2(exposure), write}.run();
+  }
   /// How many of the input's levels are converted.
   int levels_for(const MapFileInfo& info) const;
   /// How many of them to write with charts of that size, and whether as means of level 0.
@@ -338,7 +344,8 @@ void add_convert(CLI::App& app) {
       app.add_subcommand("convert", "Convert a map between parameterizations, layouts and file formats");
   command
       ->add_option("IN", convert->in,
-                   "Map to read; %s in the name stands for a face's name (px, nx…); - is standard input")
+                   "Map to read; %s in the name stands for a face's name (px, nx…); - is standard input; or "
+                   "coefficients of harmonics: .json, .csv, .txt")
       ->required();
   command
       ->add_option("OUT", convert->out,
@@ -377,11 +384,12 @@ void add_convert(CLI::App& app) {
                           "are filtered or keep their shape");
   convert->write.add(*command);
   add_format(*command, convert->format);
-  command->callback([convert] {
+  command->callback([convert, command] {
     if (convert->verify && convert->out == "-")
       throw UsageError(
           "--verify: reads what was written, which standard output does not allow: write a file");
     convert->out = output_path(convert->out, convert->format);
+    if (harmonics::is_coefficients_path(convert->in)) return convert->run_of_coefficients(*command);
     convert->in = input_path(convert->in);
     convert->run();
   });

@@ -65,6 +65,20 @@ does sh room.exr high.json --order 16
 must sh high.json high.exr --to cube --size 64
 does sh high.exr again.json --order 16
 near "order 16 → map → order 16" "$(coefficients <again.json | cut -d' ' -f2-100)" "$(coefficients <high.json | cut -d' ' -f2-100)" 1e-5
+# `convert` makes the same map of coefficients, turned and brightened too.
+must convert high.json converted.exr --to cube --size 64
+same high.exr converted.exr 1e-7
+must convert room.txt converted.exr --size 64
+same filament.exr converted.exr 1e-6
+must convert high.json turned.exr --rotate 90,20,0 --exposure 1 --size 64
+must sh high.json twice.exr --rotate 90,20,0 --size 64
+must convert twice.exr doubled.exr --scale 2
+same doubled.exr turned.exr 1e-6
+refuses 2 "--filter: is about texels" convert high.json out.exr --filter bilinear
+refuses 2 "--from: is about texels" convert high.json out.exr --from latlong
+refuses 2 "become other coefficients by" convert high.json out.csv
+refuses 2 "too coarse for harmonics of degree 16" convert high.json out.exr --size 16
+refuses 1 "missing.json: cannot be opened" convert missing.json out.exr
 does sh room.exr irradiance.exr --of irradiance --size 64
 must bake room.exr lambert.exr --lobe lambert --to latlong --size 64 --levels 1
 does sh room.exr averaged.exr --of lambert --order 16 --size 64
@@ -96,8 +110,9 @@ refuses 2 "holds irradiance already" sh held.json out.json --of lambert
 refuses 2 "is of radiance" sh held.json out.json --basis unity
 
 # Black, one texel, parts, NaN.
-must synth constant black.exr --intensity 1e-30 --size 16
+must synth constant black.exr --intensity 0 --size 16
 does sh black.exr --deringing minimal
+near "black" "$(coefficients <"$work/out" | cut -d" " -f2-4)" "0 0 0" 1e-12
 printf 'PF\n1 1\n-1.0\n\0\0\200\77\0\0\0\100\0\0\100\100' >one.pfm
 does sh one.pfm --from latlong
 near "one texel" "$(coefficients <"$work/out" | cut -d' ' -f2-4)" "3.5449077 7.0898154 10.634723" 1e-5
