@@ -106,6 +106,7 @@ class MaterialReader {
     for (const auto& [extension, value] : from.extensions) read_extension(extension, value);
     if (from.extensions.contains("KHR_materials_unlit")) {
       // It gives off its base colour, and reflects nothing.
+      material_.unlit = true;
       material_.emission = material_.base_color;
       material_.emission_map = material_.base_map;
       material_.base_color = {0, 0, 0};
@@ -170,18 +171,18 @@ class MaterialReader {
       m.clearcoat = number("clearcoatFactor", 0);
       m.clearcoat_roughness = number("clearcoatRoughnessFactor", 0);
       m.clearcoat_map = use(value, "clearcoatTexture", io::Colour::linear);
-      leave_out(value, "clearcoatRoughnessTexture");
+      m.clearcoat_roughness_map = use(value, "clearcoatRoughnessTexture", io::Colour::linear);
       leave_out(value, "clearcoatNormalTexture");
     } else if (extension == "KHR_materials_sheen") {
       for (std::size_t i = 0; i < 3; ++i)
         m.sheen_color[i] = static_cast<float>(element_of(value, "sheenColorFactor", i, 0));
       m.sheen_roughness = number("sheenRoughnessFactor", 0);
-      leave_out(value, "sheenColorTexture");
-      leave_out(value, "sheenRoughnessTexture");
+      m.sheen_color_map = use(value, "sheenColorTexture", io::Colour::srgb);
+      m.sheen_roughness_map = use(value, "sheenRoughnessTexture", io::Colour::linear);
     } else if (extension == "KHR_materials_anisotropy") {
       m.anisotropy = number("anisotropyStrength", 0);
       m.anisotropy_angle = number("anisotropyRotation", 0);
-      leave_out(value, "anisotropyTexture");
+      m.anisotropy_map = use(value, "anisotropyTexture", io::Colour::linear);
     } else if (extension == "KHR_materials_emissive_strength") {
       const float strength = number("emissiveStrength", 1);
       for (float& emission : m.emission) emission *= strength;

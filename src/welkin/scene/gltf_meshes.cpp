@@ -40,6 +40,18 @@ std::vector<Vec3<float>> as_vectors(const std::vector<float>& values) {
   return vectors;
 }
 
+/// R G B, or R G B A; already linear, as the specification says.
+std::vector<std::array<float, 4>> read_colors(const GltfFile& file, int accessor, const std::string& what) {
+  const auto& accessors = file.model.accessors;
+  const bool opaque = static_cast<std::size_t>(accessor) < accessors.size() &&
+                      accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3;
+  if (!opaque) return grouped<4>(read_floats(file, accessor, 4, what));
+  std::vector<std::array<float, 4>> colors;
+  for (const auto& rgb : grouped<3>(read_floats(file, accessor, 3, what)))
+    colors.push_back({rgb[0], rgb[1], rgb[2], 1});
+  return colors;
+}
+
 Mesh read_primitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
                     Scene& scene) {
   Mesh mesh;
@@ -68,6 +80,10 @@ Mesh read_primitive(const GltfFile& file, const tinygltf::Primitive& primitive, 
     mesh.uv[set] = grouped<2>(read_floats(file, accessor(kSets[set]), 2, what + ": texture coordinates"));
     check_count(mesh.uv[set].size(), "texture coordinates");
   }
+  if (accessor("COLOR_0") >= 0) {
+    mesh.colors = read_colors(file, accessor("COLOR_0"), what + ": colours");
+    check_count(mesh.colors.size(), "colours");
+  }
   if (primitive.indices >= 0) {
     const auto indices = read_indices(file, primitive.indices, what + ": indices");
     mesh.triangles = triangles_of(primitive.mode, 0, &indices);
@@ -83,7 +99,6 @@ Mesh read_primitive(const GltfFile& file, const tinygltf::Primitive& primitive, 
   if (primitive.material >= materials - 1)
     throw Error(ErrorKind::damaged, what + " is of a material that there isn't");
   mesh.material = primitive.material >= 0 ? primitive.material : materials - 1;
-  if (accessor("COLOR_0") >= 0) warn(scene, "colours of vertices are not read");
   if (accessor("JOINTS_0") >= 0) warn(scene, "skins are not read: what has one stands as it was modelled");
   if (!primitive.targets.empty())
     warn(scene, "morph targets are not read: meshes stand as they were modelled");
@@ -93,7 +108,8 @@ Mesh read_primitive(const GltfFile& file, const tinygltf::Primitive& primitive, 
 /// The texture coordinates by which a material asks for tangents; −1: it doesn't.
 int tangent_set_of(const Material& material) {
   if (material.normal_map) return material.normal_map.uv_set;
-  return material.anisotropy > 0 ? 0 : -1;
+  if (material.anisotropy == 0) return -1;
+  return material.anisotropy_map ? material.anisotropy_map.uv_set : 0;
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ void flatten(Mesh& mesh) {
       flat.normals.push_back(normal);
       for (std::size_t set = 0; set < 2; ++set)
         if (!mesh.uv[set].empty()) flat.uv[set].push_back(mesh.uv[set][i]);
+      if (!mesh.colors.empty()) flat.colors.push_back(mesh.colors[i]);
     }
     flat.triangles.push_back({first, first + 1, first + 2});
   }
@@ -110,6 +111,14 @@ void make_tangents(Mesh& mesh, std::size_t set) {
   }
 }
 
+void mend_colors(Mesh& mesh, Mended& mended) {
+  for (auto& color : mesh.colors) {
+    const auto before = color;
+    for (float& value : color) value = std::isfinite(value) ? std::max(value, 0.0f) : 0;
+    mended.colors += color != before;
+  }
+}
+
 /// Unit length, ±1; false if any can't be.
 bool settle_tangents(Mesh& mesh) {
   for (auto& tangent : mesh.tangents) {
@@ -135,6 +144,7 @@ void mend_mesh(Mesh& mesh, int tangent_set, Mended& mended) {
       ++mended.coordinates;
     }
   }
+  mend_colors(mesh, mended);
   drop_flat_triangles(mesh, mended);
   mend_normals(mesh, mended);
   if (mesh.normals.empty()) mesh.tangents.clear();  // those would be about normals that it doesn't have
@@ -155,6 +165,7 @@ void warn_of(Scene& scene, const Mended& mended) {
   tell(mended.normals, " normals that were zero or not finite were made from the triangles around them");
   tell(mended.tangents, " meshes had tangents that were zero or not finite, which were left out");
   tell(mended.coordinates, " texture coordinates that were not finite were set to 0");
+  tell(mended.colors, " colours of vertices that were negative or not finite were set to 0");
 }
 
 }  // namespace welkin::scene

@@ -181,6 +181,68 @@ TEST(ReadGltf, PicturesAreLinearByTheirUse) {
   EXPECT_EQ(m.base_map.angle, 1);
 }
 
+TEST(ReadGltf, ExtensionsHaveTheirPictures) {
+  const std::string uri = "data:image/png;base64," + base64(small_png());
+  const Scene scene = read_text(gltf_text(
+      square_bytes(),
+      R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatRoughnessTexture":{"index":0}},)"
+      R"("KHR_materials_sheen":{"sheenColorFactor":[1,1,1],"sheenColorTexture":{"index":0},)"
+      R"("sheenRoughnessTexture":{"index":0}},)"
+      R"("KHR_materials_anisotropy":{"anisotropyStrength":1,"anisotropyTexture":{"index":0}}}})",
+      R"({"mesh":0})", R"(,"textures":[{"source":0}],"images":[{"uri":")" + uri + "\"}]"));
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+  const Material& m = scene.materials.at(0);
+  ASSERT_EQ(scene.pictures.size(), 2u) << "sRGB and data";
+  EXPECT_NE(m.sheen_color_map.picture, m.sheen_roughness_map.picture) << "the colour alone is sRGB";
+  EXPECT_EQ(m.sheen_roughness_map.picture, m.anisotropy_map.picture);
+  EXPECT_EQ(m.sheen_roughness_map.picture, m.clearcoat_roughness_map.picture);
+  EXPECT_FALSE(scene.meshes.at(0).tangents.empty()) << "anisotropy has a direction";
+}
+
+/// The square with the colours of its corners behind its indices.
+std::string colored_square(const std::string& accessor, const Bytes& colors, const std::string& materials) {
+  Bytes buffer = square_bytes();
+  buffer.insert(buffer.end(), colors.begin(), colors.end());
+  std::string text = gltf_text(buffer, materials);
+  const auto size = std::to_string(colors.size());
+  replace(text, R"("TEXCOORD_0":2)", R"("TEXCOORD_0":2,"COLOR_0":4)");
+  replace(text, R"("type":"SCALAR"})",
+          R"("type":"SCALAR"},{"bufferView":2,"count":4,"normalized":)" + accessor + "}");
+  replace(text, R"("byteLength":12})",
+          R"("byteLength":12},{"buffer":0,"byteOffset":140,"byteLength":)" + size + "}");
+  replace(text, R"("byteLength":140)", R"("byteLength":)" + std::to_string(140 + colors.size()));
+  return text;
+}
+
+TEST(ReadGltf, VerticesHaveColors) {
+  Bytes three, four;
+  append<float>(three, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0.25f, 0.5f, 0.75f});
+  append<std::uint8_t>(four, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 51, 102, 153, 204});
+  const Scene rgb = read_text(colored_square(R"(false,"componentType":5126,"type":"VEC3")", three, "{}"));
+  EXPECT_TRUE(rgb.warnings.empty()) << rgb.warnings[0];
+  ASSERT_EQ(rgb.meshes.at(0).colors.size(), 4u);
+  EXPECT_EQ(rgb.meshes[0].colors[3], (std::array<float, 4>{0.25f, 0.5f, 0.75f, 1}));
+  const std::string text = colored_square(R"(true,"componentType":5121,"type":"VEC4")", four, "{}");
+  const Scene rgba = read_text(text);
+  ASSERT_EQ(rgba.meshes.at(0).colors.size(), 4u);
+  EXPECT_EQ(rgba.meshes[0].colors[1], (std::array<float, 4>{0, 1, 0, 1}));
+  EXPECT_FLOAT_EQ(rgba.meshes[0].colors[3][3], 0.8f);
+  EXPECT_GT(read_damaged(bytes_of(text), "test.gltf"), 400);
+  // What isn't a colour is mended and told.
+  const float nan = std::numeric_limits<float>::quiet_NaN(), below = -1;
+  std::memcpy(three.data(), &nan, 4);
+  std::memcpy(three.data() + 12, &below, 4);
+  const Scene mended = read_text(colored_square(R"(false,"componentType":5126,"type":"VEC3")", three, "{}"));
+  EXPECT_NO_THROW(mended.check());
+  EXPECT_EQ(mended.meshes.at(0).colors[0][0], 0);
+  EXPECT_TRUE(has_warning(mended, "2 colours of vertices"));
+  std::string message;
+  EXPECT_EQ(fault_of(bytes_of(colored_square(R"(false,"componentType":5126,"type":"VEC2")", three, "{}")),
+                     "test.gltf", &message),
+            ErrorKind::damaged);
+  EXPECT_NE(message.find("colours"), std::string::npos) << message;
+}
+
 TEST(ReadGltf, MissingPicturesCountAsWhite) {
   const Scene scene = read_text(
       gltf_text(square_bytes(),

@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "welkin/base/error.h"
+#include "welkin/io/colour/transfer.h"
 #include "welkin/scene/scene_input.h"
 
 namespace welkin::scene {
@@ -152,6 +153,7 @@ class MeshBuilder {
       warn(scene, "mesh '" + mesh_.name + "' has normals in part; they are left out");
     if (!has_normals_ || lacks_normals_) mesh_.normals.clear();
     if (!has_uv_) mesh_.uv[0].clear();
+    if (!has_colors_) mesh_.colors.clear();
     return std::move(mesh_);
   }
 
@@ -186,13 +188,25 @@ class MeshBuilder {
       has_uv_ = true;
     }
     mesh_.uv[0].push_back(uv);
+    mesh_.colors.push_back(color_of(static_cast<std::size_t>(corner.vertex_index)));
     return at->second;
+  }
+
+  /// Programs that write them write sRGB; a vertex without one is white.
+  std::array<float, 4> color_of(std::size_t vertex) {
+    std::array<float, 4> color{1, 1, 1, 1};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float encoded = attributes_.colors.at(3 * vertex + c);
+      color[c] = static_cast<float>(io::srgb_to_linear(std::clamp(encoded, 0.0f, 1.0f)));
+      has_colors_ = has_colors_ || encoded != 1;
+    }
+    return color;
   }
 
   const tinyobj::attrib_t& attributes_;
   Mesh mesh_;
   std::unordered_map<Corner, std::uint32_t, CornerHash> numbers_;
-  bool has_normals_ = false, lacks_normals_ = false, has_uv_ = false;
+  bool has_normals_ = false, lacks_normals_ = false, has_uv_ = false, has_colors_ = false;
 };
 
 void add_shape(const tinyobj::shape_t& shape, const tinyobj::attrib_t& attributes, Mended& mended,
@@ -265,7 +279,7 @@ Scene read_obj(const SceneInput& input) {
   const std::string content = as_text(input.bytes);
   check_numbers(content);
   std::istringstream text(content);
-  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &text, &libraries, true, false))
+  if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &text, &libraries, true, true))
     throw Error(ErrorKind::damaged, "is no valid OBJ: " + error.substr(0, error.find('\n')));
   Materials reader(input, scene);
   for (const tinyobj::material_t& material : materials) scene.materials.push_back(reader.made(material));

@@ -48,6 +48,20 @@ TEST(ReadObj, NormalsAreKept) {
   EXPECT_EQ(scene.meshes.at(0).normals.at(1).z, 1);
 }
 
+// 0.735357 of sRGB is 0.5 (IEC 61966-2-1). A vertex without a colour is white.
+TEST(ReadObj, VerticesHaveColors) {
+  const Scene scene = read_bytes(
+      bytes_of("v 0 0 0 1 0 0.735357\nv 1 0 0 0 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 2 4 3\n"), "a.obj");
+  EXPECT_NO_THROW(scene.check());
+  const Mesh& mesh = scene.meshes.at(0);
+  ASSERT_EQ(mesh.colors.size(), 4u);
+  EXPECT_NEAR(mesh.colors[0][2], 0.5, 1e-5);
+  EXPECT_EQ(mesh.colors[1], (std::array<float, 4>{0, 1, 0, 1}));
+  EXPECT_EQ(mesh.colors[2], (std::array<float, 4>{1, 1, 1, 1}));
+  EXPECT_TRUE(
+      read_bytes(bytes_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "a.obj").meshes.at(0).colors.empty());
+}
+
 TEST(ReadObj, MissingFilesAreTold) {
   const Scene scene = read_bytes(bytes_of(kCube), "cube.obj");
   EXPECT_EQ(triangle_count(scene), 12u);

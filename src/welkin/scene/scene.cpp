@@ -26,9 +26,7 @@ void check_use(const PictureUse& use, std::size_t pictures, const std::string& m
 
 void check_material(const Material& material, std::size_t pictures) {
   const std::string what = "material '" + material.name + "'";
-  for (const PictureUse* use : {&material.base_map, &material.metallic_roughness_map, &material.normal_map,
-                                &material.emission_map, &material.transmission_map, &material.clearcoat_map})
-    check_use(*use, pictures, what);
+  for (const auto use : kPictureUses) check_use(material.*use, pictures, what);
   const float shares[] = {material.alpha,
                           material.metallic,
                           material.roughness,
@@ -56,6 +54,11 @@ void check_mesh(const Mesh& mesh, std::size_t materials) {
   one_each(mesh.normals.size(), "normals");
   one_each(mesh.tangents.size(), "tangents");
   for (const auto& set : mesh.uv) one_each(set.size(), "texture coordinates");
+  one_each(mesh.colors.size(), "colours");
+  for (const auto& color : mesh.colors)
+    for (const float value : color)
+      if (!(value >= 0 && std::isfinite(value)))
+        refuse(what, "has a vertex whose colour is negative or not finite");
   for (const Vec3<float>& position : mesh.positions)
     if (!finite(to_double(position))) refuse(what, "has a vertex that is not finite");
   for (const Vec3<float>& normal : mesh.normals)
@@ -100,6 +103,13 @@ void Scene::check() const {
     if (!std::isfinite(volume) || volume == 0 || !finite(instance.to_world.origin))
       refuse(what, "stands where its mesh has no volume, or nowhere");
   }
+}
+
+bool has_sheen(const Scene& scene) {
+  return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
+    const auto& color = material_of(scene, instance).sheen_color;
+    return std::max({color[0], color[1], color[2]}) > 0;
+  });
 }
 
 std::optional<Bounds> bounds_of(const Scene& scene) {

@@ -56,9 +56,9 @@ struct Material {
   float transmission = 0;                       ///< the share of what isn't reflected that passes through
   float clearcoat = 0;                          ///< weight of a coat of ior 1.5
   float clearcoat_roughness = 0;                ///< of the coat
-  std::array<float, 3> sheen_color = {};        ///< of cloth
-  float sheen_roughness = 0;                    ///< of cloth
-  float anisotropy = 0;                         ///< strength, 0 … 1
+  std::array<float, 3> sheen_color = {};        ///< of cloth, over all but the coat
+  float sheen_roughness = 0;                    ///< of cloth, 0 … 1; α of Charlie is its square
+  float anisotropy = 0;                         ///< strength, 0 … 1: α grows to 1 along its direction
   float anisotropy_angle = 0;                   ///< from the tangent, counterclockwise, radians
   float normal_scale = 1;                       ///< of the normal map's x and y
   float alpha_cutoff = 0.5f;                    ///< of `masked`
@@ -71,6 +71,11 @@ struct Material {
   PictureUse emission_map = {};                 ///< R G B × emission
   PictureUse transmission_map = {};             ///< R × transmission
   PictureUse clearcoat_map = {};                ///< R × clearcoat
+  PictureUse clearcoat_roughness_map = {};      ///< G × clearcoat_roughness
+  PictureUse sheen_color_map = {};              ///< R G B × sheen_color
+  PictureUse sheen_roughness_map = {};          ///< A × sheen_roughness
+  PictureUse anisotropy_map = {};  ///< R G = (d + 1)/2, turned by anisotropy_angle; B × anisotropy
+  bool unlit = false;              ///< emission is its base colour, by which vertices' colours multiply too
 };
 
 /// Triangles of one material.
@@ -80,6 +85,7 @@ struct Mesh {
   std::vector<Vec3<float>> normals;            ///< one a vertex, of unit length; empty: flat triangles
   std::vector<std::array<float, 4>> tangents;  ///< x, y, z and ±1: bitangent = ±1 · n × t; may be empty
   std::vector<std::array<float, 2>> uv[2];     ///< two sets; may be empty
+  std::vector<std::array<float, 4>> colors;    ///< × base colour and alpha, linear; empty: white
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise seen from the front
   int material = 0;                                     ///< of Scene::materials
 };
@@ -151,6 +157,23 @@ inline const Material& material_of(const Scene& scene, const Instance& instance)
   const int own = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
   return scene.materials[static_cast<std::size_t>(instance.material >= 0 ? instance.material : own)];
 }
+
+/// All pictures that a material can wear.
+inline constexpr std::array kPictureUses = {
+    &Material::base_map,
+    &Material::metallic_roughness_map,
+    &Material::normal_map,
+    &Material::emission_map,
+    &Material::transmission_map,
+    &Material::clearcoat_map,
+    &Material::clearcoat_roughness_map,
+    &Material::sheen_color_map,
+    &Material::sheen_roughness_map,
+    &Material::anisotropy_map,
+};
+
+/// Whether anything that is seen can have a sheen.
+WELKIN_API bool has_sheen(const Scene& scene);
 
 /// The box around all instances.
 struct Bounds {

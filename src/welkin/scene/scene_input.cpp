@@ -103,9 +103,9 @@ void mend_material(Scene& scene, Material& material) {
   clamp(material.ior, 1, 1000);
   for (float* any : {&material.normal_scale, &material.alpha_cutoff, &material.anisotropy_angle})
     clamp(*any, -kMost, kMost);
-  for (PictureUse* use : {&material.base_map, &material.metallic_roughness_map, &material.normal_map,
-                          &material.emission_map, &material.transmission_map, &material.clearcoat_map}) {
-    for (float* any : {&use->offset[0], &use->offset[1], &use->scale[0], &use->scale[1], &use->angle})
+  for (const auto which : kPictureUses) {
+    PictureUse& use = material.*which;
+    for (float* any : {&use.offset[0], &use.offset[1], &use.scale[0], &use.scale[1], &use.angle})
       clamp(*any, -kMost, kMost);
   }
   if (clamped) warn(scene, "material '" + material.name + "' has numbers out of range, which were clamped");

@@ -66,6 +66,7 @@ struct Mended {
   std::uint64_t normals = 0;         ///< rebuilt
   std::uint64_t tangents = 0;        ///< meshes whose own were unfit, and made again
   std::uint64_t coordinates = 0;     ///< texture coordinates that were not finite, now 0
+  std::uint64_t colors = 0;          ///< colours that were negative or not finite, now 0
 };
 
 /// Drops triangles without area; makes normals unit, and those that can't be from the triangles around;
