@@ -77,6 +77,7 @@ void Render::run(const CLI::App& command) const {
   const scene::PlacedCamera camera = placed.camera_of(loaded);
   options.to_eye = scene::eye_of(camera.camera.rotation);
   options.lights = loaded.lights;
+  options.sheen = has_sheen(loaded);
   const scene::Worlds around = worlds.load(loaded);
   const scene::TracedScene traced(std::move(loaded));
   const MakeSceneShading shade = [&](const scene::Worlds& seen, const scene::TracedScene& standing) {

@@ -31,8 +31,9 @@ void set_material(scene::Material& material, const std::string& name, const std:
     return std::array{static_cast<float>(numbers[0]), static_cast<float>(numbers[1]),
                       static_cast<float>(numbers[2])};
   };
-  const std::vector<std::string> names{"color",        "metallic",  "roughness",           "ior",
-                                       "transmission", "clearcoat", "clearcoat-roughness", "emission",
+  const std::vector<std::string> names{"color",           "metallic",   "roughness",           "ior",
+                                       "transmission",    "clearcoat",  "clearcoat-roughness", "sheen",
+                                       "sheen-roughness", "anisotropy", "anisotropy-angle",    "emission",
                                        "normal-scale"};
   if (name == "color") {
     material.base_color = colour();
@@ -52,6 +53,18 @@ void set_material(scene::Material& material, const std::string& name, const std:
     material.clearcoat_map = {};
   } else if (name == "clearcoat-roughness") {
     material.clearcoat_roughness = number();
+    material.clearcoat_roughness_map = {};
+  } else if (name == "sheen") {
+    material.sheen_color = colour();
+    material.sheen_color_map = {};
+  } else if (name == "sheen-roughness") {
+    material.sheen_roughness = number();
+    material.sheen_roughness_map = {};
+  } else if (name == "anisotropy") {
+    material.anisotropy = number();
+    material.anisotropy_map = {};
+  } else if (name == "anisotropy-angle") {
+    material.anisotropy_angle = number() * static_cast<float>(kPi / 180);
   } else if (name == "normal-scale") {
     material.normal_scale = number();
   } else {
@@ -87,7 +100,8 @@ void SceneFlags::add_scene(CLI::App& command) {
   command.add_option(
       "--material", material,
       "Properties of all materials: color=R/G/B, metallic, roughness, ior, transmission, "
-      "clearcoat, clearcoat-roughness, emission=R/G/B, normal-scale; metallic=1,roughness=0.2");
+      "clearcoat, clearcoat-roughness, sheen=R/G/B, sheen-roughness, anisotropy, anisotropy-angle (degrees), "
+      "emission=R/G/B, normal-scale; metallic=1,roughness=0.2");
   command
       .add_option(
           "--shadows", shadows,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "welkin/base/error.h"
 #include "welkin/lookup/roughness_level.h"
@@ -18,6 +19,18 @@ namespace {
 /// Roughness of the chain's levels: finer where narrow lobes change.
 constexpr std::array kRoughness{0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0};
 constexpr const char* kCurve = "0,0.05,0.1,0.2,0.3,0.45,0.6,0.8,1";
+/// Of Charlie's chain. Few levels: each has half the size of the one before, and none is narrow throughout.
+constexpr std::array kSheenRoughness{0.07, 0.14, 0.28, 0.5, 1.0};
+constexpr const char* kSheenCurve = "0.07,0.14,0.28,0.5,1";
+
+/// The place of a value among ascending ones, real, clamped.
+double place_in(std::span<const double> ascending, double value) {
+  value = std::clamp(value, ascending.front(), ascending.back());
+  const auto above = std::upper_bound(ascending.begin(), ascending.end(), value);
+  if (above == ascending.end()) return static_cast<double>(ascending.size() - 1);
+  const auto k = static_cast<std::size_t>(above - ascending.begin());
+  return static_cast<double>(k - 1) + (value - ascending[k - 1]) / (ascending[k] - ascending[k - 1]);
+}
 
 ConeSamplerOptions usual_cones(const Map& map) {
   constexpr std::int64_t kMostTexels = 1 << 21;
@@ -82,7 +95,7 @@ class World::State {
   ConeSamplerOptions cone_options;
   std::mutex mutex;
   std::optional<ConeSampler> cones;
-  std::optional<Sampler> bilinear, diffuse, rough;
+  std::optional<Sampler> bilinear, diffuse, rough, sheen;
   std::optional<ChainNotes> notes;  // of a chain that was given
   std::map<double, Sampler> phong;
 
@@ -152,11 +165,21 @@ const Sampler& World::rough() const {
 
 double World::level_of(double roughness) const {
   if (state_->notes) return level_of_roughness(*state_->notes, std::clamp(roughness, 0.0, 1.0));
-  roughness = std::clamp(roughness, 0.0, 1.0);
-  const auto above = std::upper_bound(kRoughness.begin(), kRoughness.end(), roughness);
-  if (above == kRoughness.end()) return static_cast<double>(kRoughness.size() - 1);
-  const auto k = static_cast<std::size_t>(above - kRoughness.begin());
-  return static_cast<double>(k - 1) + (roughness - kRoughness[k - 1]) / (kRoughness[k] - kRoughness[k - 1]);
+  return place_in(kRoughness, roughness);
+}
+
+const Sampler& World::sheen() const {
+  return state_->once(state_->sheen, [&] {
+    BakeOptions options;
+    options.lobe = lobe::AnyLobe::make("charlie");
+    options.curve = lobe::RoughnessCurve::from_name(kSheenCurve);
+    options.size = ChartSize{128, 128};
+    return Sampler(bake(*state_->map, options));
+  });
+}
+
+double World::sheen_level_of(double roughness) const {
+  return place_in(kSheenRoughness, roughness);
 }
 
 const Sampler& World::phong(double exponent) const {

@@ -62,6 +62,9 @@ class WELKIN_API World {
   const Sampler& rough() const;      ///< a chain filtered with GGX over roughness
   /// The level of `rough` for a roughness, 0 … 1.
   double level_of(double roughness) const;
+  const Sampler& sheen() const;  ///< a chain filtered with Charlie's lobe over roughness
+  /// The level of `sheen` for a roughness, 0 … 1.
+  double sheen_level_of(double roughness) const;
   /// Filtered with Phong's lobe of this exponent. Kept as long as the world.
   const Sampler& phong(double exponent) const;
 

@@ -35,8 +35,7 @@ std::optional<GlassFacet> glass_facet(const Vec3d& view, const Vec3d& light, dou
 }
 
 GgxFacets facets_of(double roughness, double anisotropy) {
-  const double alpha = std::max(squared(roughness), squared(Bsdf::kMirrorRoughness));
-  return {alpha + (1 - alpha) * squared(anisotropy), alpha};
+  return ggx_facets(roughness, anisotropy, squared(Bsdf::kMirrorRoughness));
 }
 
 /// A direction of density cos/π, by equal areas of the disc (Shirley & Chiu 1997).
@@ -72,19 +71,18 @@ double often_density(double cosine) {
 Bsdf::Bsdf(const Surface& at) : normal_(at.normal), flat_(at.flat_normal) {
   const MaterialPoint& point = at.material;
   const Material& material = *point.material;
-  const Vec3d along = normalize(at.tangent - dot(at.tangent, normal_) * normal_);
-  const Vec3d across = (dot(cross(normal_, along), at.bitangent) < 0 ? -1.0 : 1.0) * cross(normal_, along);
-  const double c = std::cos(material.anisotropy_angle), s = std::sin(material.anisotropy_angle);
-  tangent_ = c * along + s * across;
-  bitangent_ = c * across - s * along;
+  const Grain grain = grain_of(at);
+  tangent_ = grain.along;
+  bitangent_ = grain.across;
   view_ = to_local(at.view);
   view_.z = std::max(view_.z, kLeastCosine);
   view_ = normalize(view_);
 
-  facets_ = facets_of(point.roughness, material.anisotropy);
-  coat_facets_ = facets_of(material.clearcoat_roughness, 0);
-  roughness_ = std::sqrt(std::sqrt(facets_.x * facets_.y));
-  coat_roughness_ = material.clearcoat_roughness;
+  facets_ = facets_of(point.roughness, point.anisotropy);
+  coat_facets_ = facets_of(point.clearcoat_roughness, 0);
+  roughness_ = mean_roughness(facets_);
+  coat_roughness_ = point.clearcoat_roughness;
+  sheen_ = Sheen(point, view_.z);
   coat_ = point.clearcoat;
   eta_ = at.from_behind ? 1.0 / material.ior : material.ior;
   glass_ = (1.0 - point.metallic) * point.transmission;
@@ -120,6 +118,14 @@ Bsdf::Bsdf(const Surface& at) : normal_(at.normal), flat_(at.flat_normal) {
   double all = 0;
   for (const double p : probability_) all += p;
   for (double& p : probability_) p = all > 0 ? p / all : 0;
+  if (sheen_) share_with_sheen(all);
+}
+
+void Bsdf::share_with_sheen(double others) {
+  const double shine = (1 - coat_albedo_) * mean(sheen_.albedo());
+  const double under = coat_albedo_ + std::max(0.0, others - coat_albedo_) * sheen_.passed(view_.z);
+  for (double& p : probability_) p *= under / (shine + under);
+  probability_[cloth] = shine / (shine + under);
 }
 
 void Bsdf::set_glass_losses(double ior, bool from_behind) {
@@ -177,6 +183,10 @@ bool Bsdf::on_one_side(const Vec3d& world, const Vec3d& local) const {
 }
 
 double Bsdf::below_coat(double cosine) const {
+  return through_coat(cosine) * sheen_.passed(std::abs(cosine));
+}
+
+double Bsdf::through_coat(double cosine) const {
   if (coat_ == 0) return 1;
   const double other =
       coat_ * split_sums().at(std::max(std::abs(cosine), kLeastCosine), coat_roughness_).reflectance(kCoatF0);
@@ -212,6 +222,8 @@ Radiance Bsdf::value(Lobe lobe, const Vec3d& light) const {
       }
       return value;
     }
+    case cloth:
+      return through_coat(light.z) * sheen_.value(view_, light);
     case multiple: {
       const double lost = std::max(0.0, 1 - split_sums().at(light.z, roughness_).one);
       const double often = mean_lost_ > 0 ? lost_view_ * lost / (kPi * mean_lost_) : 0;
@@ -254,6 +266,8 @@ double Bsdf::density(Lobe lobe, const Vec3d& light) const {
     }
     case diffuse:
       return light.z / kPi;
+    case cloth:
+      return Sheen::density(light.z);
     case multiple:
       return often_density(light.z);
     case glass: {
@@ -333,6 +347,8 @@ std::optional<Vec3d> Bsdf::drawn(Lobe lobe, double u, double u1, double u2) cons
       return above(reflect(view_, facets_.draw(view_, u1, u2)));
     case diffuse:
       return cosine_direction(u1, u2);
+    case cloth:
+      return Sheen::draw(u1, u2);
     case multiple:
       return often_direction(u, u1, u2);
     case glass_again: {

@@ -47,4 +47,17 @@ struct GgxFacets {
   }
 };
 
+/// Of a glTF material: α is the roughness' square, which along the grain grows to 1 with the anisotropy's
+/// square (KHR_materials_anisotropy). α is `least` at least.
+inline GgxFacets ggx_facets(double roughness, double anisotropy, double least) {
+  const double alpha = std::max(roughness * roughness, least);
+  return {alpha + (1 - alpha) * anisotropy * anisotropy, alpha};
+}
+
+/// The roughness of isotropic facets that reflect as much, to 3 % in the mean over azimuths: α² is the mean
+/// of both.
+inline double mean_roughness(const GgxFacets& facets) {
+  return std::pow((facets.x * facets.x + facets.y * facets.y) / 2, 0.25);
+}
+
 }  // namespace welkin::scene

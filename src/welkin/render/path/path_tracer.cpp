@@ -13,6 +13,7 @@
 #include "welkin/render/path/bsdf.h"
 #include "welkin/render/path/emitters.h"
 #include "welkin/render/path/path_light.h"
+#include "welkin/render/shading/sheen.h"
 #include "welkin/render/shading/split_sums.h"
 
 namespace welkin::scene {
@@ -253,6 +254,7 @@ PathPicture path_trace(const TracedScene& scene, const PlacedCamera& camera, con
   const CameraRays rays(frame, camera.position);
   const int width = frame.size.width, height = frame.size.height, samples = options.samples;
   split_sums();
+  if (has_sheen(scene.scene())) sheen_sums();
   const PathLight light(world, options.sampling, without_progress(options.monitor));
   const Paths paths(scene, light, options);
   PathPicture made{Image(width, height, 4), Image(width, height, 4)};

@@ -54,6 +54,7 @@ struct ShadingOptions {
   Matrix3 to_eye = {};
   bool reflected_coordinates = false;   ///< of `matcap`: by the reflected direction, not the normal
   std::vector<PointLight> lights = {};  ///< whose highlights `chrome` shows
+  bool sheen = false;  ///< of `material`: make what a sheen looks up at once, not where one is first seen
 };
 
 /// The eye's frame of a camera of this rotation.

@@ -5,6 +5,7 @@
 
 #include "welkin/math/vec_precision.h"
 #include "welkin/render/proxy_rays.h"
+#include "welkin/render/shading/sheen.h"
 
 namespace welkin::scene {
 
@@ -40,6 +41,13 @@ void to_rgb(std::span<const float> values, int channels, std::span<Rgb> radiance
 
 double normal_spread(const Surface& surface) {
   return 2 * std::sqrt(surface.normal_variance);
+}
+
+double widened(double roughness, const Surface& at, const RayDifferential& ray) {
+  const double pixel = std::sqrt(length(cross(ray.right, ray.down))) / std::sqrt(12.0);
+  const double alpha = roughness * roughness;
+  const double variance = 2 * at.normal_variance + std::min(pixel * pixel, 1.0) / 2;
+  return std::sqrt(std::sqrt(std::min(alpha * alpha + variance, 1.0)));
 }
 
 namespace {
@@ -96,6 +104,15 @@ void look_up_cones(const Worlds& worlds, std::span<const Surface> surfaces,
 const FilteredLook& diffuse_light() {
   static const FilteredLook look{[](const World& world) -> const Sampler& { return world.diffuse(); },
                                  [](const Surface& at) { return at.normal; }, nullptr};
+  return look;
+}
+
+const FilteredLook& sheen_light() {
+  const auto of = [](const Surface& at) { return Sheen(at.material, dot(at.normal, at.view)).look_up(at); };
+  static const FilteredLook look{
+      [](const World& world) -> const Sampler& { return world.sheen(); },
+      [of](const Surface& at) { return of(at).direction; },
+      [of](const World& world, const Surface& at) { return world.sheen_level_of(of(at).roughness); }};
   return look;
 }
 

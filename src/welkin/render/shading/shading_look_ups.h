@@ -53,6 +53,10 @@ void look_up_cones(const Worlds& worlds, std::span<const Surface> surfaces,
 /// The σ of the reflected directions that a normal map adds: normals turn half as far.
 double normal_spread(const Surface& surface);
 
+/// The roughness of a surface whose normals, and whose reflected or bent directions `ray` within a pixel,
+/// spread besides: slopes' variances add, and α²/2 is GGX's (of its core).
+double widened(double roughness, const Surface& at, const RayDifferential& ray);
+
 /// Reads a map's channels as R G B: one or two are grey.
 void to_rgb(std::span<const float> values, int channels, std::span<Rgb> radiance);
 
@@ -67,6 +71,8 @@ void look_up_filtered(const Worlds& worlds, std::span<const Surface> surfaces, c
                       std::span<Rgb> radiance);
 /// Diffuse light, along the normal.
 const FilteredLook& diffuse_light();
+/// What a sheen reflects (Sheen::look_up).
+const FilteredLook& sheen_light();
 
 /// a + b·c, channel by channel.
 inline Rgb operator+(const Rgb& a, const Rgb& b) {

@@ -22,8 +22,7 @@ Surface facing(const Vec3d& normal, const Vec3d& view, const Material& material)
   at.view = normalize(view);
   at.tangent = {1, 0, 0};
   at.bitangent = {0, 1, 0};
-  at.material = {&material,         material.base_color, material.emission,     material.alpha,
-                 material.metallic, material.roughness,  material.transmission, material.clearcoat};
+  at.material = point_of(material);
   return at;
 }
 

@@ -18,7 +18,7 @@ SmoothLayers::SmoothLayers(const Surface& at) {
   const Material& material = *point.material;
   const double nv = std::clamp(dot(at.normal, at.view), 0.0, 1.0);
   eta = at.from_behind ? 1.0 / material.ior : material.ior;
-  const double coat = point.clearcoat * split_sums().at(nv, material.clearcoat_roughness).reflectance(0.04);
+  const double coat = point.clearcoat * split_sums().at(nv, point.clearcoat_roughness).reflectance(0.04);
   const double glass = (1 - coat) * (1 - point.metallic) * point.transmission;
   const double opaque = 1 - coat - glass;
   const double metallic = opaque > 0 ? (1 - coat) * point.metallic / opaque : 1;

@@ -4,6 +4,15 @@
 
 namespace welkin::scene {
 
+Grain grain_of(const Surface& surface) {
+  // A normal map turns the normal away from the tangents.
+  const Vec3d& n = surface.normal;
+  const Vec3d t = normalize(surface.tangent - dot(surface.tangent, n) * n);
+  const Vec3d b = (dot(cross(n, t), surface.bitangent) < 0 ? -1.0 : 1.0) * cross(n, t);
+  const double angle = surface.material.anisotropy_angle, c = std::cos(angle), s = std::sin(angle);
+  return {c * t + s * b, c * b - s * t};
+}
+
 RayDifferential reflected(const Surface& surface) {
   const Vec3d &n = surface.normal, &v = surface.view;
   const double cosine = dot(n, v);

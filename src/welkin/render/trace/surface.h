@@ -28,15 +28,37 @@ struct RaySpread {
 
 /// A material at one place, its pictures looked up.
 struct MaterialPoint {
-  const Material* material;         ///< where it is from
-  std::array<float, 3> base_color;  ///< as Material
-  std::array<float, 3> emission;    ///< as Material
-  float alpha;                      ///< as Material
-  float metallic;                   ///< as Material
-  float roughness;                  ///< as Material
-  float transmission;               ///< as Material
-  float clearcoat;                  ///< as Material
+  const Material* material;          ///< where it is from
+  std::array<float, 3> base_color;   ///< as Material
+  std::array<float, 3> emission;     ///< as Material
+  float alpha;                       ///< as Material
+  float metallic;                    ///< as Material
+  float roughness;                   ///< as Material
+  float transmission;                ///< as Material
+  float clearcoat;                   ///< as Material
+  float clearcoat_roughness;         ///< as Material
+  std::array<float, 3> sheen_color;  ///< as Material
+  float sheen_roughness;             ///< as Material
+  float anisotropy;                  ///< as Material
+  float anisotropy_angle;            ///< as Material
 };
+
+/// A material where it wears no pictures.
+inline MaterialPoint point_of(const Material& material) {
+  return {&material,
+          material.base_color,
+          material.emission,
+          material.alpha,
+          material.metallic,
+          material.roughness,
+          material.transmission,
+          material.clearcoat,
+          material.clearcoat_roughness,
+          material.sheen_color,
+          material.sheen_roughness,
+          material.anisotropy,
+          material.anisotropy_angle};
+}
 
 /// A place on a surface, seen from somewhere.
 struct Surface {
@@ -59,6 +81,15 @@ struct Surface {
   std::uint32_t instance = 0;  ///< of Scene::instances
   MaterialPoint material;      ///< what is there
 };
+
+/// The direction across `normal` along which an anisotropic surface is rougher, and the one across both, of
+/// unit length.
+struct Grain {
+  Vec3d along;   ///< of larger α
+  Vec3d across;  ///< of the material's own
+};
+/// By the surface's tangents and its material's angle.
+WELKIN_API Grain grain_of(const Surface& surface);
 
 /// The direction in which a mirror reflects what the viewer sees, r = 2(n·v)n − v, and how it changes.
 WELKIN_API RayDifferential reflected(const Surface& surface);

@@ -44,7 +44,8 @@ class TracedScene::State {
   RTCScene traced = nullptr;
   double largest = 1;  // of all coordinates
 
-  MaterialPoint material_at(const Material& material, const Surface& at,
+  /// `color`: of the vertices.
+  MaterialPoint material_at(const Material& material, const std::array<float, 4>& color,
                             const std::array<std::array<double, 2>, 3> (&uv)[2]) const;
   std::array<float, 4> look_up(const PictureUse& use,
                                const std::array<std::array<double, 2>, 3> (&uv)[2]) const;

@@ -33,13 +33,15 @@ std::array<float, 4> TracedScene::State::look_up(const PictureUse& use,
   return shared->textures[static_cast<std::size_t>(use.picture)].mean(at, turned(set[1]), turned(set[2]));
 }
 
-MaterialPoint TracedScene::State::material_at(const Material& material, const Surface&,
+MaterialPoint TracedScene::State::material_at(const Material& material, const std::array<float, 4>& color,
                                               const std::array<std::array<double, 2>, 3> (&uv)[2]) const {
-  MaterialPoint point{&material,         material.base_color, material.emission,     material.alpha,
-                      material.metallic, material.roughness,  material.transmission, material.clearcoat};
-  const auto times = [](std::array<float, 3>& color, const std::array<float, 4>& by) {
-    for (std::size_t c = 0; c < 3; ++c) color[c] *= by[c];
+  MaterialPoint point = point_of(material);
+  const auto times = [](std::array<float, 3>& value, const std::array<float, 4>& by) {
+    for (std::size_t c = 0; c < 3; ++c) value[c] *= by[c];
   };
+  times(point.base_color, color);
+  point.alpha *= color[3];
+  if (material.unlit) times(point.emission, color);
   if (material.base_map) {
     const auto value = look_up(material.base_map, uv);
     times(point.base_color, value);
@@ -53,8 +55,17 @@ MaterialPoint TracedScene::State::material_at(const Material& material, const Su
   if (material.emission_map) times(point.emission, look_up(material.emission_map, uv));
   if (material.transmission_map) point.transmission *= look_up(material.transmission_map, uv)[0];
   if (material.clearcoat_map) point.clearcoat *= look_up(material.clearcoat_map, uv)[0];
-  for (float* share :
-       {&point.metallic, &point.roughness, &point.transmission, &point.clearcoat, &point.alpha})
+  if (material.clearcoat_roughness_map)
+    point.clearcoat_roughness *= look_up(material.clearcoat_roughness_map, uv)[1];
+  if (material.sheen_color_map) times(point.sheen_color, look_up(material.sheen_color_map, uv));
+  if (material.sheen_roughness_map) point.sheen_roughness *= look_up(material.sheen_roughness_map, uv)[3];
+  if (material.anisotropy_map) {
+    const auto value = look_up(material.anisotropy_map, uv);
+    point.anisotropy *= value[2];
+    point.anisotropy_angle += std::atan2(2 * value[1] - 1, 2 * value[0] - 1);
+  }
+  for (float* share : {&point.metallic, &point.roughness, &point.transmission, &point.clearcoat, &point.alpha,
+                       &point.clearcoat_roughness, &point.sheen_roughness, &point.anisotropy})
     *share = std::clamp(*share, 0.0f, 1.0f);
   if (material.masked) point.alpha = point.alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
   if (!material.masked && !material.blended) point.alpha = 1;
@@ -175,7 +186,14 @@ Surface TracedScene::surface(const RaySpread& ray, const Hit& hit, Reflection re
   const double long_enough = length(level);
   at.tangent = long_enough > 1e-300 ? (1 / long_enough) * level : across(at.normal);
   at.bitangent = (handed * side) * cross(at.normal, at.tangent);
-  at.material = state_->material_at(*mesh.material, at, uv);
+  std::array<float, 4> color{1, 1, 1, 1};
+  if (const auto& colors = mesh.mesh->colors; !colors.empty()) {
+    const float weight[] = {1 - hit.b1 - hit.b2, hit.b1, hit.b2};
+    color = {};
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t c = 0; c < 4; ++c) color[c] += weight[k] * colors[triangle[k]][c];
+  }
+  at.material = state_->material_at(*mesh.material, color, uv);
   if (mesh.material->normal_map) state_->bend_normal(at, uv);
 
   // Near outlines interpolated normals turn away from the viewer.
