@@ -127,7 +127,10 @@ void Tile::meet(const Way& way, const Hit& hit) {
   const Rgb weight = alpha * way.weight;
   if (way.depth == 0) alphas_[way.pixel] += weight[0];
   if (alpha == 0) return;
-  if (way.depth >= options_.depth || at.material.roughness > options_.smooth) {
+  // Cloth and brushed metal are no mirrors, however smooth they are.
+  const auto& sheen = at.material.sheen_color;
+  const bool mirrors = at.material.anisotropy == 0 && std::max({sheen[0], sheen[1], sheen[2]}) == 0;
+  if (way.depth >= options_.depth || at.material.roughness > options_.smooth || !mirrors) {
     rough_.add(at, weight, way.pixel);
     return;
   }
