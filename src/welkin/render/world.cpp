@@ -12,24 +12,36 @@
 #include "welkin/base/error.h"
 #include "welkin/lookup/roughness_level.h"
 #include "welkin/prefilter/bake.h"
+#include "welkin/prefilter/prefilter.h"
 
 namespace welkin::scene {
 namespace {
 
-/// Roughness of the chain's levels: finer where narrow lobes change.
-constexpr std::array kRoughness{0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0};
-constexpr const char* kCurve = "0,0.05,0.1,0.2,0.3,0.45,0.6,0.8,1";
-/// Of Charlie's chain. Few levels: each has half the size of the one before, and none is narrow throughout.
-constexpr std::array kSheenRoughness{0.07, 0.14, 0.28, 0.5, 1.0};
-constexpr const char* kSheenCurve = "0.07,0.14,0.28,0.5,1";
+/// A level of a chain: its roughness, and how many times smaller than the finest its faces are.
+struct LevelPlan {
+  double roughness;
+  int smaller;
+};
+/// Closer where narrow lobes change. Faces halved from level to level would leave the widest lobes a texel.
+constexpr LevelPlan kRough[] = {{0, 1},    {0.05, 1}, {0.1, 1}, {0.2, 2}, {0.3, 4},
+                                {0.45, 8}, {0.6, 8},  {0.8, 8}, {1, 8}};
+/// Of Charlie's chain, none of which is narrow throughout.
+constexpr LevelPlan kSheen[] = {{0.07, 1}, {0.14, 1}, {0.28, 2}, {0.5, 2}, {1, 2}};
 
-/// The place of a value among ascending ones, real, clamped.
-double place_in(std::span<const double> ascending, double value) {
-  value = std::clamp(value, ascending.front(), ascending.back());
-  const auto above = std::upper_bound(ascending.begin(), ascending.end(), value);
-  if (above == ascending.end()) return static_cast<double>(ascending.size() - 1);
-  const auto k = static_cast<std::size_t>(above - ascending.begin());
-  return static_cast<double>(k - 1) + (value - ascending[k - 1]) / (ascending[k] - ascending[k - 1]);
+Chain chain_of(const Map& map, const char* lobe, std::span<const LevelPlan> plan, int side) {
+  std::vector<PrefilterLevel> levels;
+  for (const auto& [roughness, smaller] : plan)
+    levels.push_back({{side / smaller, side / smaller}, lobe::AnyLobe::make(lobe).with_roughness(roughness)});
+  return {prefilter_map(map, sphere::AnyParameterization::make("cube"), std::move(levels)), {}};
+}
+
+/// The level, a real number, that has a roughness; clamped.
+double level_in(std::span<const LevelPlan> plan, double roughness) {
+  roughness = std::clamp(roughness, plan.front().roughness, plan.back().roughness);
+  std::size_t k = 1;
+  while (k + 1 < plan.size() && plan[k].roughness < roughness) ++k;
+  const double low = plan[k - 1].roughness, high = plan[k].roughness;
+  return static_cast<double>(k - 1) + (roughness - low) / (high - low);
 }
 
 ConeSamplerOptions usual_cones(const Map& map) {
@@ -152,34 +164,25 @@ const Sampler& World::diffuse() const {
 
 const Sampler& World::rough() const {
   return state_->once(state_->rough, [&] {
-    BakeOptions options;
-    options.curve = lobe::RoughnessCurve::from_name(kCurve);
     // A face has a quarter of a lat-long's width, as its texels do along the equator.
     const int side = std::clamp(static_cast<int>(std::sqrt(1.0 * state_->map->charts() *
                                                            state_->map->width() * state_->map->height() / 6)),
                                 256, 1024);
-    options.size = ChartSize{side, side};
-    return Sampler(bake(*state_->map, options));
+    return Sampler(chain_of(*state_->map, "ggx", kRough, side));
   });
 }
 
 double World::level_of(double roughness) const {
   if (state_->notes) return level_of_roughness(*state_->notes, std::clamp(roughness, 0.0, 1.0));
-  return place_in(kRoughness, roughness);
+  return level_in(kRough, roughness);
 }
 
 const Sampler& World::sheen() const {
-  return state_->once(state_->sheen, [&] {
-    BakeOptions options;
-    options.lobe = lobe::AnyLobe::make("charlie");
-    options.curve = lobe::RoughnessCurve::from_name(kSheenCurve);
-    options.size = ChartSize{128, 128};
-    return Sampler(bake(*state_->map, options));
-  });
+  return state_->once(state_->sheen, [&] { return Sampler(chain_of(*state_->map, "charlie", kSheen, 128)); });
 }
 
 double World::sheen_level_of(double roughness) const {
-  return place_in(kSheenRoughness, roughness);
+  return level_in(kSheen, roughness);
 }
 
 const Sampler& World::phong(double exponent) const {

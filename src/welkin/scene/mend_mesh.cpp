@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "welkin/base/error.h"
+#include "welkin/math/unit_vector.h"
 #include "welkin/math/vec_precision.h"
 #include "welkin/scene/scene_input.h"
 
@@ -16,17 +17,6 @@ bool finite(const Vec3d& v) {
 Vec3d area_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
   const Vec3d a = to_double(mesh.positions[t[0]]);
   return cross(to_double(mesh.positions[t[1]]) - a, to_double(mesh.positions[t[2]]) - a);
-}
-
-Vec3d unit_or(const Vec3d& v, const Vec3d& other) {
-  const double size = length(v);
-  return size > 0 && std::isfinite(size) ? (1 / size) * v : other;
-}
-
-/// Some direction at right angles to a normal.
-Vec3d across(const Vec3d& normal) {
-  const Vec3d axis = std::abs(normal.x) < 0.7 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  return normalize(axis - dot(axis, normal) * normal);
 }
 
 void drop_flat_triangles(Mesh& mesh, Mended& mended) {

@@ -11,6 +11,9 @@
 namespace welkin::scene {
 namespace {
 
+/// Of smoother surfaces the world itself is looked up: the chain's first level has coarser texels.
+constexpr float kSharp = 0.02f;
+
 /// `material`: glTF's metallic-roughness, split into a pre-filtered look-up and the integral of the BRDF
 /// (Karis 2013), with what scatters several times (Fdez-Agüera 2019), over diffuse light; sheen and clear
 /// coat over both; transmission bent once.
@@ -32,6 +35,9 @@ class MaterialShading : public Shading {
   struct Layers {
     std::vector<Rgb> specular, diffuse, coat, behind, sheen;
   };
+  template <class Rough, class Ray>
+  void look_up_lobes(std::span<const Surface> surfaces, const Rough& roughness, const Ray& ray,
+                     std::span<Rgb> layer) const;
   Rgb mixed(const Surface& at, const Layers& layers, std::size_t i) const;
 
   Worlds worlds_;
@@ -47,40 +53,47 @@ const Sampler& rough_of(const World& world) {
   return world.rough();
 }
 
+/// Light that a layer reflects or lets through about `ray`: of its roughness from the chain; of the sharp
+/// ones of the world itself, over the pixel's cone.
+template <class Rough, class Ray>
+void MaterialShading::look_up_lobes(std::span<const Surface> surfaces, const Rough& roughness, const Ray& ray,
+                                    std::span<Rgb> layer) const {
+  look_up_filtered(worlds_, surfaces,
+                   {rough_of, [&](const Surface& at) { return ray(at).direction; },
+                    [&](const World& world, const Surface& at) {
+                      return world.level_of(widened(roughness(at), at, ray(at)));
+                    }},
+                   layer);
+  std::vector<SurfaceCone> cones;
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i)
+    if (roughness(surfaces[i]) <= kSharp) cones.push_back({i, ray(surfaces[i]), normal_spread(surfaces[i])});
+  std::vector<Rgb> sharp(cones.size());
+  look_up_cones(worlds_, surfaces, cones, options_, sharp);
+  for (std::size_t k = 0; k < cones.size(); ++k) layer[cones[k].surface] = sharp[k];
+}
+
 void MaterialShading::shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const {
   Layers layers;
   for (auto* layer : {&layers.specular, &layers.diffuse, &layers.coat, &layers.behind, &layers.sheen})
     layer->assign(surfaces.size(), Rgb{});
-  look_up_filtered(worlds_, surfaces,
-                   {rough_of, [](const Surface& at) { return reflected(at).direction; },
-                    [](const World& world, const Surface& at) {
-                      return world.level_of(widened(at.material.roughness, at, reflected(at)));
-                    }},
-                   layers.specular);
-  look_up_filtered(worlds_, surfaces, diffuse_light(), layers.diffuse);
   const auto any = [&](auto share) { return std::any_of(surfaces.begin(), surfaces.end(), share); };
+  const auto rough = [](const Surface& at) { return at.material.roughness; };
+  look_up_lobes(surfaces, rough, reflected, layers.specular);
+  look_up_filtered(worlds_, surfaces, diffuse_light(), layers.diffuse);
   if (any([](const Surface& at) { return at.material.anisotropy > 0; }))
     look_up_anisotropic(worlds_, surfaces, layers.specular);
   if (any(is_cloth)) look_up_filtered(worlds_, surfaces, sheen_light(), layers.sheen);
   if (any([](const Surface& at) { return at.material.clearcoat > 0; }))
-    look_up_filtered(worlds_, surfaces,
-                     {rough_of, [](const Surface& at) { return reflected(at).direction; },
-                      [](const World& world, const Surface& at) {
-                        return world.level_of(widened(at.material.clearcoat_roughness, at, reflected(at)));
-                      }},
-                     layers.coat);
-  if (any([](const Surface& at) { return at.material.transmission > 0; })) {
-    const auto bent = [](const Surface& at) {
-      const double ior = at.material.material->ior;
-      return refracted(at, at.from_behind ? 1 / ior : ior);
-    };
-    look_up_filtered(worlds_, surfaces,
-                     {rough_of, [bent](const Surface& at) { return bent(at).direction; },
-                      [bent](const World& world, const Surface& at) {
-                        return world.level_of(widened(at.material.roughness, at, bent(at)));
-                      }},
-                     layers.behind);
-  }
+    look_up_lobes(
+        surfaces, [](const Surface& at) { return at.material.clearcoat_roughness; }, reflected, layers.coat);
+  if (any([](const Surface& at) { return at.material.transmission > 0; }))
+    look_up_lobes(
+        surfaces, rough,
+        [](const Surface& at) {
+          const double ior = at.material.material->ior;
+          return refracted(at, at.from_behind ? 1 / ior : ior);
+        },
+        layers.behind);
   for (std::size_t i = 0; i < surfaces.size(); ++i) radiance[i] = mixed(surfaces[i], layers, i);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "welkin/base/error.h"
+#include "welkin/math/unit_vector.h"
 #include "welkin/math/vec_precision.h"
 #include "welkin/render/trace/traced_scene_state.h"
 
@@ -16,11 +17,6 @@ constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 31;
 constexpr std::size_t kStream = 256;
 
 using Float3 = Vec3<float>;
-
-Vec3d unit_or(const Vec3d& v, const Vec3d& otherwise) {
-  const double size = length(v);
-  return size > 1e-300 ? (1 / size) * v : otherwise;
-}
 
 WorldMesh world_mesh(const Scene& scene, const Instance& instance, const Transform& to) {
   const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];

@@ -1,24 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/math/unit_vector.h"
 #include "welkin/math/vec_precision.h"
 #include "welkin/render/trace/traced_scene_state.h"
 
 namespace welkin::scene {
-namespace {
-
-Vec3d unit_or(const Vec3d& v, const Vec3d& otherwise) {
-  const double size = length(v);
-  return size > 1e-300 ? (1 / size) * v : otherwise;
-}
-
-/// Some vector across a unit vector.
-Vec3d across(const Vec3d& n) {
-  return normalize(std::abs(n.y) < 0.9 ? cross({0, 1, 0}, n) : cross({1, 0, 0}, n));
-}
-
-}  // namespace
-
 std::array<float, 4> TracedScene::State::look_up(const PictureUse& use,
                                                  const std::array<std::array<double, 2>, 3> (&uv)[2]) const {
   const auto& set = uv[use.uv_set];

@@ -1,0 +1,48 @@
+#include "welkin/render/world.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "welkin/prefilter/bake.h"
+#include "welkin/synth/render_synth.h"
+
+namespace welkin::scene {
+namespace {
+
+/// Directions all over the sphere (a spiral of the golden angle).
+Vec3d direction(int i, int count) {
+  const double y = 1 - (2 * i + 1.0) / count, s = std::sqrt(1 - y * y),
+               phi = i * std::numbers::pi * (3 - std::sqrt(5.0));
+  return {s * std::cos(phi), y, s * std::sin(phi)};
+}
+
+// A level's faces are fine enough for its lobe, the widest ones' too: what is looked up is the map that is
+// filtered with this lobe alone.
+TEST(World, RoughLightIsItsLobesMean) {
+  const auto map = [] {
+    return welkin::render(synth::make("studio"), sphere::AnyParameterization::make("latlong"), 256, 128);
+  };
+  const World world(map());
+  for (const double roughness : {0.2, 0.45, 0.6, 0.8, 1.0}) {
+    BakeOptions alone;
+    alone.chain = false;
+    alone.lobe = lobe::AnyLobe::make("ggx").with_roughness(roughness);
+    alone.size = ChartSize{256, 256};
+    const Sampler right(bake(map(), alone));
+    double most = 0, mean = 0;
+    constexpr int kCount = 400;
+    for (int i = 0; i < kCount; ++i) {
+      const Vec3d d = direction(i, kCount);
+      const float value = right.rgb(d)[1], found = world.rough().rgb(d, world.level_of(roughness))[1];
+      most = std::max<double>(most, std::abs(found - value));
+      mean += static_cast<double>(value) / kCount;
+    }
+    EXPECT_LT(most, 0.02 * mean) << roughness;
+  }
+}
+
+}  // namespace
+}  // namespace welkin::scene
