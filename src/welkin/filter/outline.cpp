@@ -11,13 +11,20 @@ using sphere::AnyParameterization;
 /// Texel edges are traced a little inside of where they are, all by the same: exactly on the edge of a chart
 /// of the source, where aligned maps have them, rounding would decide on which side they lie.
 constexpr double kAside = 7.3e-5;
+/// The same at the edges of the target's charts, where no neighbour has what is left out: a pole's whole
+/// light may lie within a thousandth of an equal-area map's first row.
+constexpr double kAsideOfChart = 1e-9;
 /// Deviation of a chord from its curve, texels.
 constexpr double kFlat = 0.003;
 /// Of an edge, before what is left of it counts as a jump from one chart to the next.
 constexpr int kDepth = 13;
+/// The same where the parts left of an edge are less than a texel apart: it may grow as a root does.
+constexpr int kDepthWithinATexel = 36;
 
 double line(int index, int count) {
-  return (index + (index == count ? -kAside : kAside)) / count;
+  if (index == 0) return kAsideOfChart / count;
+  if (index == count) return 1 - kAsideOfChart / count;
+  return (index + kAside) / count;
 }
 
 /// +1 where u, v and the direction make a right-handed frame.
@@ -103,8 +110,8 @@ bool Outline::follow(int chart, const Position& from, const Position& to, int de
     runs.back().points.push_back({to.x, to.y});
     return true;
   }
-  if (depth == kDepth) {
-    const double apart = std::max(std::fabs(to.x - from.x), std::fabs(to.y - from.y));
+  const double apart = std::max(std::fabs(to.x - from.x), std::fabs(to.y - from.y));
+  if (depth >= (one_chart && apart < 1 ? kDepthWithinATexel : kDepth)) {
     if (from.chart != to.chart || apart > 1e-3) runs.push_back({to.chart, {}});
     runs.back().points.push_back({to.x, to.y});
     return true;

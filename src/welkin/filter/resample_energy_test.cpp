@@ -265,5 +265,21 @@ TEST(ResampleEnergyTest, ASunKeepsItsLight) {
   }
 }
 
+/// The first row of an equal-area map is wide at the pole, and a sun there a thousandth of it.
+TEST(ResampleEnergyTest, ASunAtThePoleKeepsItsLight) {
+  for (const double off : {0.0, 0.004}) {
+    const Vec3d sun = normalize(Vec3d{off, 1, off});
+    Map source(make_map("latlong", 1).parameterization, 512, 256, 1);
+    render(source, [&](const Vec3d& d) { return angle_between(d, sun) < 0.5 * kPi / 180 ? 60000.0 : 0.3; });
+    for (const int size : {100, 200, 642}) {
+      for (const char* name : {"equal-area", "latlong", "octahedral"}) {
+        Map target = make_map(name, size);
+        resample(source, target, with(Filter::automatic));
+        EXPECT_NEAR(light_of(target) / light_of(source), 1, 1e-3) << name << ' ' << size << ' ' << off;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace welkin
