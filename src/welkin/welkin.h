@@ -83,6 +83,7 @@
 #include "welkin/map/adjust.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/chain.h"
+#include "welkin/map/face_edges.h"
 #include "welkin/map/lobe_sums.h"
 #include "welkin/map/map.h"
 #include "welkin/map/pyramid.h"

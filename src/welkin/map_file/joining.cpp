@@ -2,132 +2,80 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <vector>
 
-#include "welkin/map/luminance.h"
+#include "welkin/map/edge_texels.h"
+#include "welkin/map_file/face_order.h"
 #include "welkin/map_file/map_file_job.h"
 #include "welkin/sphere/convention.h"
 
 namespace welkin::map_file {
 namespace {
 
-/// Texels across a face that stands for it: its outermost texels, those next to them, and others to fill the
-/// edge.
-constexpr int kSide = 64;
-constexpr int kFaces = 6;
+/// Steps that differ by less are of worlds that are alike, or mirror images.
+constexpr double kAsWell = 1.05;
 
-/// The texel of `size` that stands at place `i` of kSide.
-int texel_at(int i, int size) {
-  if (i < 2) return std::min(i, size - 1);
-  if (i >= kSide - 2) return std::max(0, size - (kSide - i));
-  return static_cast<int>((i + 0.5) * size / kSide);
+Layout in_reading_order(Layout layout) {
+  std::sort(layout.cells.begin(), layout.cells.end(), [](const LayoutCell& a, const LayoutCell& b) {
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  });
+  return layout;
 }
 
-using Face = Image;
+/// The layout of that name, as the native world has it.
+Layout plain_layout(const sphere::AnyParameterization& p, const std::string& name) {
+  for (const Layout& layout : layouts_of(p)) {
+    if (layout.name == name) return in_reading_order(layout);
+  }
+  return in_reading_order(layouts_of(p).front());
+}
 
-std::vector<Face> blank_faces() {
-  std::vector<Face> faces;
-  for (int face = 0; face < kFaces; ++face) faces.emplace_back(kSide, kSide, 1);
+/// The pictures of the cells in reading order, as they lie in the file.
+std::vector<Image> pictures_of(const std::vector<Image>& charts, const Layout& layout) {
+  const Layout ordered = in_reading_order(layout);
+  std::vector<Image> pictures = blank_small_faces(static_cast<int>(ordered.cells.size()));
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const LayoutCell& cell = ordered.cells[i];
+    copy_to_cell(cell, charts[static_cast<std::size_t>(cell.chart)].view(), pictures[i].view());
+  }
+  return pictures;
+}
+
+/// The layout as a reading has it.
+Layout layout_of(const FaceReading& reading, const Layout& plain, const sphere::AnyParameterization& p) {
+  const Layout read = layout_for(plain, p, reading.orientation);
+  return reading.faces.empty() ? read : with_faces(read, p, reading.faces);
+}
+
+/// The layout's own faces, in reading order, all of them turned by `all`, and the top and the bottom by more.
+std::string faces_of(const Layout& layout, const sphere::AnyParameterization& p, const std::string& all,
+                     const std::string& top, const std::string& bottom) {
+  const std::vector<std::string> names = chart_names(p);
+  std::string faces;
+  for (const LayoutCell& cell : layout.cells) {
+    const std::string& name = names[static_cast<std::size_t>(cell.chart)];
+    faces += (faces.empty() ? "" : ",") + name + all;
+    if (name == "py") faces += top;
+    if (name == "ny") faces += bottom;
+  }
   return faces;
 }
 
-/// log₂ of luminance over the map's mean, so that dark and bright edges count alike; the darkest count for
-/// little.
-std::vector<Face> faces_of(const Map& map) {
-  std::vector<Face> faces = blank_faces();
-  const TexelLuminance luminance(map.channel_names);
-  double sum = 0;
-  for (int face = 0; face < kFaces; ++face) {
-    Face& small = faces[static_cast<std::size_t>(face)];
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
-        const double value = static_cast<double>(
-            luminance(map.level.chart(face).at(texel_at(x, map.width()), texel_at(y, map.height()))));
-        const double kept = std::isfinite(value) ? std::max(value, 0.0) : 0;
-        *small.at(x, y) = static_cast<float>(kept);
-        sum += std::min(kept, 1e30);
-      }
-    }
-  }
-  const double mean = sum / (kFaces * kSide * kSide);
-  constexpr double kDark = 1.0 / 16;
-  for (Face& face : faces) {
-    for (int i = 0; i < kSide * kSide; ++i) {
-      float& value = face.at(0, 0)[i];
-      value = static_cast<float>(std::log2((mean > 0 ? static_cast<double>(value) / mean : 0) + kDark));
-    }
-  }
-  return faces;
-}
-
-/// A texel at an edge of a face, the one inside of it, and the one across the edge.
-struct EdgeTexel {
-  int face, x, y, inner_x, inner_y;
-  int other_face, other_x, other_y;
-};
-
-std::vector<EdgeTexel> edge_texels(const sphere::AnyParameterization& p) {
-  std::vector<EdgeTexel> list;
-  const auto place = [](double u) { return std::clamp(static_cast<int>(u * kSide), 0, kSide - 1); };
-  for (int face = 0; face < kFaces; ++face) {
-    for (int edge = 0; edge < 4; ++edge) {
-      for (int i = 0; i < kSide; ++i) {
-        const int last = kSide - 1;
-        const int x = edge == 0 ? 0 : edge == 1 ? last : i, y = edge == 2 ? 0 : edge == 3 ? last : i;
-        const int out_x = edge == 0 ? -1 : edge == 1 ? 1 : 0, out_y = edge == 2 ? -1 : edge == 3 ? 1 : 0;
-        const double u = (x + 0.5 + out_x) / kSide, v = (y + 0.5 + out_y) / kSide;
-        // Past the edge the face's plane goes on, and the direction is another face's.
-        const sphere::ChartPoint<double> other = p.from_sphere(p.to_sphere(face, u, v));
-        if (static_cast<int>(other.chart) == face) continue;
-        list.push_back({face, x, y, x - out_x, y - out_y, static_cast<int>(other.chart), place(other.u),
-                        place(other.v)});
-      }
-    }
-  }
-  return list;
-}
-
-double step_of(const std::vector<Face>& faces, const std::vector<EdgeTexel>& texels) {
-  double sum = 0;
-  for (const EdgeTexel& t : texels) {
-    const auto face = static_cast<std::size_t>(t.face), other = static_cast<std::size_t>(t.other_face);
-    sum += std::fabs(static_cast<double>(*faces[face].at(t.x, t.y) - *faces[other].at(t.other_x, t.other_y)));
-  }
-  return sum / static_cast<double>(texels.size());
-}
-
-double inner_step_of(const std::vector<Face>& faces, const std::vector<EdgeTexel>& texels) {
-  double sum = 0;
-  for (const EdgeTexel& t : texels) {
-    const Face& face = faces[static_cast<std::size_t>(t.face)];
-    sum += std::fabs(static_cast<double>(*face.at(t.x, t.y) - *face.at(t.inner_x, t.inner_y)));
-  }
-  return sum / static_cast<double>(texels.size());
-}
-
-/// Joined edges differ as neighbours do, and a little more where texels are far apart.
-bool is_joined(double step, double inner_step) {
-  constexpr double kNoticed = 0.05;  // stops
-  return step <= 2 * inner_step + kNoticed;
-}
-
-/// The readings to try, the likelier first; a mirror image of the world joins as well as the world.
-std::vector<FaceReading> readings(const sphere::AnyParameterization& p) {
+/// The usual readings, the likelier first; a mirror image of the world joins as well as the world.
+std::vector<FaceReading> usual_readings(const Layout& plain, const sphere::AnyParameterization& p) {
   std::vector<FaceReading> list;
-  const std::array<const char*, 4> kAll{"", ":180:mirror", ":mirror", ":180"};
-  const std::array<const char*, 4> kTurns{"", ":90", ":180", ":270"};
-  for (const char* all : kAll) {
+  const std::array<std::string, 4> kAll{"", ":180:mirror", ":mirror", ":180"};
+  const std::array<std::string, 4> kTurns{"", ":90", ":180", ":270"};
+  for (const std::string& all : kAll) {
     for (const char* convention : {"native", "three.js"}) {
-      for (const char* top : kTurns) {
-        for (const char* bottom : kTurns) {
+      for (const std::string& top : kTurns) {
+        for (const std::string& bottom : kTurns) {
           FaceReading reading;
           reading.convention = convention;
           reading.orientation = orientation_for(convention_from_name(convention), p);
-          const std::string rest = all;
-          if (!rest.empty() || *top != '\0' || *bottom != '\0')
-            reading.faces = "px" + rest + ",nx" + rest + ",py" + rest + top + ",ny" + rest + bottom + ",pz" +
-                            rest + ",nz" + rest;
+          if (!all.empty() || !top.empty() || !bottom.empty())
+            reading.faces = faces_of(layout_for(plain, p, reading.orientation), p, all, top, bottom);
           list.push_back(std::move(reading));
         }
       }
@@ -136,48 +84,64 @@ std::vector<FaceReading> readings(const sphere::AnyParameterization& p) {
   return list;
 }
 
+/// The likeliest of the usual readings that join best.
+FaceReading best_usual_reading(const std::vector<Image>& pictures, const Layout& plain,
+                               const sphere::AnyParameterization& p, const std::vector<EdgeTexel>& texels) {
+  std::vector<FaceReading> tried = usual_readings(plain, p);
+  double least = std::numeric_limits<double>::max(), next = least;
+  for (FaceReading& reading : tried) {
+    const Layout read = layout_of(reading, plain, p);
+    std::vector<Image> faces = blank_small_faces(static_cast<int>(pictures.size()));
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const LayoutCell& cell = read.cells[i];
+      copy_from_cell(cell, pictures[i].view(), faces[static_cast<std::size_t>(cell.chart)].view());
+    }
+    reading.step = face_edges_of(faces, texels).across;
+    least = std::min(least, reading.step);
+  }
+  const auto as_well = [&](const FaceReading& each) { return each.step <= kAsWell * least; };
+  for (const FaceReading& reading : tried) {
+    if (!as_well(reading)) next = std::min(next, reading.step);
+  }
+  FaceReading best = *std::find_if(tried.begin(), tried.end(), as_well);
+  best.next_step = next;
+  return best;
+}
+
+/// Whether a reading's faces join where those as they were read don't.
+bool is_better(const FaceReading& reading, const FaceEdges& edges) {
+  constexpr double kMuchBetter = 0.5;
+  return reading.step < kMuchBetter * edges.across && FaceEdges{reading.step, edges.beside}.join();
+}
+
 }  // namespace
 
-bool Joining::joins() const {
-  return is_joined(step, inner_step);
+std::string FaceReading::text() const {
+  const std::string world = convention == "native" ? "the native world" : "the world of " + convention;
+  return faces.empty() ? world : world + ", the faces being " + faces;
+}
+
+bool FaceReading::is_unsure() const {
+  constexpr double kNear = 1.2;
+  return next_step < kNear * step;
 }
 
 Joining measure_joining(const Map& map, const Layout& layout) {
   const sphere::AnyParameterization& p = map.parameterization;
   const std::vector<EdgeTexel> texels = edge_texels(p);
-  const std::vector<Face> charts = faces_of(map);
+  const std::vector<Image> charts = small_faces(map);
   Joining joining;
-  joining.step = step_of(charts, texels);
-  joining.inner_step = inner_step_of(charts, texels);
-  if (joining.joins()) return joining;
+  joining.edges = face_edges_of(charts, texels);
+  if (joining.edges.join()) return joining;
 
-  // The pictures as they lie in the file, by the names of their faces.
-  std::vector<Face> pictures = blank_faces();
-  for (const LayoutCell& cell : layout.cells)
-    copy_to_cell(cell, charts[static_cast<std::size_t>(cell.chart)].view(),
-                 pictures[static_cast<std::size_t>(cell.chart)].view());
-  const std::vector<Layout> layouts = layouts_of(p);
-  const auto files =
-      std::find_if(layouts.begin(), layouts.end(), [](const Layout& each) { return each.name == "hstrip"; });
-  std::vector<FaceReading> tried = readings(p);
-  for (FaceReading& reading : tried) {
-    Layout read = layout_for(*files, p, reading.orientation);
-    if (!reading.faces.empty()) read = with_faces(read, p, reading.faces);
-    std::vector<Face> faces = blank_faces();
-    for (std::size_t slot = 0; slot < read.cells.size(); ++slot) {
-      const LayoutCell& cell = read.cells[slot];
-      copy_from_cell(cell, pictures[slot].view(), faces[static_cast<std::size_t>(cell.chart)].view());
-    }
-    reading.step = step_of(faces, texels);
+  const std::vector<Image> pictures = pictures_of(charts, layout);
+  const Layout plain = plain_layout(p, layout.name);
+  FaceReading reading = best_usual_reading(pictures, plain, p, texels);
+  if (!is_better(reading, joining.edges)) {
+    const FaceOrder order = find_face_order(pictures, plain, p, texels);
+    reading = {"native", Matrix3{}, order.faces, order.step, order.next_step, true};
   }
-  const auto least = std::min_element(tried.begin(), tried.end(),
-                                      [](const auto& a, const auto& b) { return a.step < b.step; });
-  // The first that joins as well as the best does.
-  constexpr double kAsWell = 1.05, kMuchBetter = 0.5;
-  const auto best = std::find_if(tried.begin(), tried.end(),
-                                 [&](const auto& each) { return each.step <= kAsWell * least->step; });
-  if (best->step < kMuchBetter * joining.step && is_joined(best->step, joining.inner_step))
-    joining.better = *best;
+  if (is_better(reading, joining.edges)) joining.better = reading;
   return joining;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "welkin/map/face_edges.h"
 #include "welkin/map/map.h"
 #include "welkin/map_file/layout.h"
 
@@ -15,22 +16,25 @@ struct FaceReading {
   std::string convention = "native";  ///< of the world; else that of textures, whose +X is to the right of +Z
   Matrix3 orientation;                ///< the convention's
   std::string faces = {};             ///< as with_faces; empty: the layout's own
-  double step = 0;                    ///< across the edges, as Joining::step
+  double step = 0;                    ///< across the edges, as FaceEdges::across
+  double next_step = 0;               ///< of the best reading that joins otherwise
+  bool ordered = false;               ///< whether the faces lie in another order than any usual one
+
+  /// `the world of three.js, the faces being …`.
+  std::string text() const;
+  /// Whether another reading would join about as well.
+  bool is_unsure() const;
 };
 
 /// How faces join.
 struct Joining {
-  /// The mean step between texels that face each other across an edge of the cube, and between neighbours
-  /// beside it: of log₂(luminance), stops.
-  double step = 0, inner_step = 0;
+  FaceEdges edges;                    ///< as they were read
   std::optional<FaceReading> better;  ///< a reading whose faces join where these don't
-  /// Whether they join as they were read: the step is about as small as it is inside of faces.
-  bool joins() const;
 };
 
-/// Measures a map of cube faces that was read with this layout, which was turned by `orientation` and
-/// `faces` already. Where its faces don't join, tries both worlds, the top and bottom in each quarter turn,
-/// and all faces upside down or mirrored.
+/// Measures a map of cube faces that was read with this layout, which was turned by an orientation and faces
+/// already. Where its faces don't join, tries both worlds, the top and bottom in each quarter turn, and all
+/// faces upside down or mirrored; then all orders and turns.
 Joining measure_joining(const Map& map, const Layout& layout);
 
 }  // namespace welkin::map_file

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "welkin/filter/resample.h"
@@ -66,6 +67,37 @@ class Joining : public ::testing::Test {
     }
   }
 
+  /// The world, turned by quarters: it has the same mean and the same values along the axes, opposite ones in
+  /// opposite directions, and is no mirror image.
+  static void expect_world_but_turned(const Map& map) {
+    const Sampler sampler(map.clone(), {});
+    const auto seen = [&](const Vec3d& d) {
+      std::vector<float> value(3);
+      sampler.look_up(std::vector{d}, value);
+      return static_cast<double>(value[0]);
+    };
+    const std::vector<Vec3d> axes{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    Matrix3 turn;
+    for (int row = 0; row < 3; ++row) {
+      int nearest = 0;
+      const Vec3d own = axes[static_cast<std::size_t>(2 * row)];
+      for (int i = 1; i < 6; ++i) {
+        const auto off = [&](int k) {
+          return std::fabs(world(axes[static_cast<std::size_t>(k)]) - seen(own));
+        };
+        if (off(i) < off(nearest)) nearest = i;
+      }
+      const Vec3d d = axes[static_cast<std::size_t>(nearest)];
+      EXPECT_NEAR(seen(own), world(d), 0.02);
+      turn.rows[static_cast<std::size_t>(row)] = {d.x, d.y, d.z};
+    }
+    EXPECT_NEAR(determinant(turn), 1, 1e-9);
+    const Matrix3 to_world = transpose(turn);
+    for (const Vec3d d :
+         {Vec3d{0.8, 0.6, 0}, Vec3d{0, 0.6, -0.8}, Vec3d{-0.6, 0, 0.8}, Vec3d{0.6, -0.64, 0.48}})
+      EXPECT_NEAR(seen(d), world(to_world * d), 0.02);
+  }
+
   fs::path folder_;
 };
 
@@ -115,10 +147,77 @@ TEST_F(Joining, WhatIsAskedIsBelievedAndTold) {
   EXPECT_TRUE(reader.info().orientation == Matrix3{});
 }
 
+/// The faces of other programs' strips, and Welkin's crosses turned otherwise; all in the native world's
+/// names.
+TEST_F(Joining, OtherOrdersAreFoundAndTold) {
+  const std::pair<const char*, const char*> cases[] = {{"vstrip", "nz,py,px,nx:90,ny,pz"},
+                                                       {"hstrip", "pz,nx,nz,px,py,ny"},
+                                                       {"3x2", "nx,pz,px,ny:270,nz:90,py:270"},
+                                                       {"hcross", "nz:90,px,py,nx:180,ny,pz:270"},
+                                                       {"faces", "ny,py,nx,px,nz:180,pz"}};
+  for (const auto& [layout, faces] : cases) {
+    const LoadedMap loaded = read_map(written(cube("native"), layout, faces));
+    ASSERT_EQ(loaded.info.image.warnings.size(), 1u) << layout << " " << faces;
+    EXPECT_NE(
+        loaded.info.image.warnings[0].find("in a usual order, but in the native world, the faces being"),
+        std::string::npos)
+        << loaded.info.image.warnings[0];
+    expect_world_but_turned(loaded.map);
+  }
+}
+
+/// Of a strip in the order of a panorama viewer: the top and bottom say where the front is.
+TEST_F(Joining, TheFrontIsWhereTheTopAndBottomAreUpright) {
+  expect_world(read_map(written(cube("native"), "hstrip", "pz,nx,nz,px,py,ny")).map);
+  expect_world(read_map(written(cube("native"), "vstrip", "px,pz,nx,nz,ny,py")).map);
+}
+
+TEST_F(Joining, TurnedFacesOfCrossesAreFound) {
+  for (const char* convention : {"native", "three.js"}) {
+    for (const std::pair<const char*, const char*>& each :
+         {std::pair("vcross", "py,px,pz,nx,ny,nz:180"), std::pair("hcross", "py:90,px,pz,nx,nz,ny:180")}) {
+      std::string faces = each.second;
+      if (std::string(convention) == "three.js") {
+        faces.replace(faces.find("px"), 2, "??").replace(faces.find("nx"), 2, "px");
+        faces.replace(faces.find("??"), 2, "nx");
+      }
+      const LoadedMap loaded = read_map(written(cube(convention), each.first, faces));
+      ASSERT_EQ(loaded.info.image.warnings.size(), 1u) << each.first;
+      expect_world(loaded.map);
+    }
+  }
+}
+
+TEST_F(Joining, HowSureAReadingIsIsTold) {
+  const std::string text = read_map(written(cube("three.js"), "vstrip")).info.image.warnings.at(0);
+  double step = 0, as_they_lie = 0, next = 0;
+  ASSERT_EQ(std::sscanf(text.c_str() + text.find("(steps"),
+                        "(steps across edges of %lf stops, as they lie %lf, next best %lf)", &step,
+                        &as_they_lie, &next),
+            3)
+      << text;
+  const Map map = read_map(folder_ / "sky.pfm", {.orientation = Matrix3{}}).map;
+  const FaceEdges edges = measure_face_edges(map);
+  EXPECT_NEAR(as_they_lie, edges.across, 0.01 * edges.across);
+  EXPECT_LT(2 * step, next);
+  EXPECT_LE(next, as_they_lie * 1.001);
+}
+
 TEST_F(Joining, FacesThatJoinInNoWayAreTold) {
-  const LoadedMap loaded = read_map(written(cube("native"), "vstrip", "nz,py,px,nx:90,ny,pz"));
+  Map mixed = cube("native");
+  for (int face = 0; face < 6; ++face) {
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 48; ++x)
+        std::fill_n(mixed.level.chart(face).at(x, y), 3,
+                    static_cast<float>(1.1 + std::sin((face + 1) * 0.13 * x + 2 * face) *
+                                                 std::cos(0.11 * (6 - face) * y)));
+    }
+  }
+  const LoadedMap loaded = read_map(written(mixed, "vstrip"));
   ASSERT_EQ(loaded.info.image.warnings.size(), 1u);
   EXPECT_NE(loaded.info.image.warnings[0].find("do not join"), std::string::npos);
+  EXPECT_EQ(loaded.info.image.warnings[0].find("read so"), std::string::npos)
+      << loaded.info.image.warnings[0];
   ReadMapOptions options;
   options.shape = "cube:vstrip";
   EXPECT_TRUE(read_map(folder_ / "sky.pfm", options).info.image.warnings.empty());

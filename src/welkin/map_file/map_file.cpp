@@ -1,6 +1,7 @@
 #include "welkin/map_file/map_file.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <system_error>
 
 #include "welkin/base/error.h"
@@ -111,11 +112,18 @@ bool leaves_faces_open(const MapFileInfo& info) {
          !info.image.envmap;
 }
 
-std::string text_of(const FaceReading& reading) {
-  std::string text =
-      reading.convention == "native" ? "the native world" : "the world of " + reading.convention;
-  if (!reading.faces.empty()) text += ", the faces being " + reading.faces;
+/// `0.042`.
+std::string step_text(double step) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", step);
   return text;
+}
+
+/// How sure a reading is: the steps across edges, of it and of others.
+std::string sureness_of(const FaceReading& reading, const FaceEdges& as_they_lie) {
+  return std::string(reading.is_unsure() ? "unsure: " : "") + "steps across edges of " +
+         step_text(reading.step) + " stops, as they lie " + step_text(as_they_lie.across) + ", next best " +
+         step_text(reading.next_step);
 }
 
 }  // namespace
@@ -124,9 +132,9 @@ void MapReader::join_faces() {
   if (!leaves_faces_open(info_) || options_.orientation || !options_.faces.empty()) return;
   const Joining joining = measure_joining(read(), shape().layout);
   ReadMapOptions changed = options_;
-  if (joining.joins()) {
+  if (joining.edges.join()) {
     // A picture of one colour joins in every way.
-    if (options_.shape || joining.step > 0 || joining.inner_step > 0) return;
+    if (options_.shape || joining.edges.across > 0 || joining.edges.beside > 0) return;
     joining_ = {"is taken for " + info_.shape->text() + ", " + info_.reason +
                 ": nothing in it tells whether it is"};
     return inspect_with(std::move(changed));
@@ -134,8 +142,9 @@ void MapReader::join_faces() {
   if (joining.better) {
     changed.orientation = joining.better->orientation;
     changed.faces = joining.better->faces;
-    joining_ = {"its faces do not join in the native world, but in " + text_of(*joining.better) +
-                ": read so"};
+    joining_ = {std::string("its faces do not join in the native world") +
+                (joining.better->ordered ? " in a usual order" : "") + ", but in " + joining.better->text() +
+                ": read so (" + sureness_of(*joining.better, joining.edges) + ")"};
   } else if (options_.shape || shape().layout.kind == LayoutKind::files) {
     return;  // what was asked for, or is named as faces are, may be six pictures of their own
   } else {
@@ -148,8 +157,9 @@ void MapReader::join_faces() {
 void MapReader::check_faces() {
   if (!leaves_faces_open(info_)) return;
   const Joining joining = measure_joining(read(), shape().layout);
-  if (joining.joins() || !joining.better) return;
-  joining_ = {"its faces do not join as they are read; they would in " + text_of(*joining.better)};
+  if (joining.edges.join() || !joining.better) return;
+  joining_ = {"its faces do not join as they are read; they would in " + joining.better->text() + " (" +
+              sureness_of(*joining.better, joining.edges) + ")"};
   inspect_with(options_);
 }
 
