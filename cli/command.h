@@ -40,6 +40,8 @@ CLI::Validator finite_number(double minimum = -std::numeric_limits<double>::max(
 /// Text of a file or a pipe for the terminal: control characters become `?`, and a text of over `longest`
 /// bytes is cut.
 std::string printable(std::string text, std::size_t longest = 200);
+/// Of warnings, which may name all faces of a cube.
+inline constexpr std::size_t kLongestWarning = 400;
 
 /// `1,2.5,-3`: numbers separated by commas. Throws UsageError, naming the option.
 std::vector<double> parse_numbers(std::string_view option, const std::string& text);

@@ -10,6 +10,7 @@
 #include "hints.h"
 #include "json_text.h"
 #include "welkin/base/listed.h"
+#include "welkin/map/face_edges.h"
 #include "welkin/map_file/safety_border.h"
 #include "welkin/measure/energy.h"
 #include "welkin/measure/statistics.h"
@@ -204,7 +205,7 @@ void print_header(const std::string& path, const MapFileInfo& info) {
   }
   for (const std::string& note : info.image.notes) fmt::print("  note              {}\n", note);
   for (const std::string& warning : info.image.warnings)
-    fmt::print("  warning           {}\n", printable(with_option(warning)));
+    fmt::print("  warning           {}\n", printable(with_option(warning), kLongestWarning));
   for (const auto& [key, value] : info.image.attributes) {
     fmt::print("  {:<17} {}\n", printable(key), printable(value.substr(0, value.find('\n'))));
   }
@@ -220,6 +221,11 @@ void print_header(const std::string& path, const MapFileInfo& info) {
   } else {
     fmt::print("  parameterization  unknown: {}; name it with --from\n", info.reason);
   }
+}
+
+void print_edges(const FaceEdges& edges) {
+  fmt::print("  edges of faces    steps of {:.3g} stops across them, {:.3g} beside them: {}\n", edges.across,
+             edges.beside, edges.join() ? "they join" : "they do not join");
 }
 
 void print_statistics(const MapStatistics& s) {
@@ -248,10 +254,16 @@ void print_statistics(const MapStatistics& s) {
 }
 
 struct Measures {
-  MapStatistics statistics;   ///< of the level asked for
-  MapEnergy energy;           ///< the same level's
-  std::vector<double> means;  ///< luminance of every level, where none is asked for
+  MapStatistics statistics;        ///< of the level asked for
+  MapEnergy energy;                ///< the same level's
+  std::optional<FaceEdges> edges;  ///< the same level's, of a cube
+  std::vector<double> means;       ///< luminance of every level, where none is asked for
 };
+
+void add_measures(const Map& map, const Monitor& monitor, Measures& measures) {
+  measures.energy = measure_energy(map, {.monitor = without_progress(monitor)});
+  if (map.parameterization.traits().cube_faces) measures.edges = measure_face_edges(map);
+}
 
 Measures measure_levels(MapReader& reader, std::optional<int> level) {
   Measures measures;
@@ -259,7 +271,7 @@ Measures measure_levels(MapReader& reader, std::optional<int> level) {
   if (level) {
     const Map map = reader.read();
     measures.statistics = measure(map, monitor);
-    measures.energy = measure_energy(map, {.monitor = without_progress(monitor)});
+    add_measures(map, monitor, measures);
   } else {
     for (int each = 0; each < levels_of(reader.info()); ++each) {
       reader.set_level(each);
@@ -268,7 +280,7 @@ Measures measure_levels(MapReader& reader, std::optional<int> level) {
       measures.means.push_back(statistics.luminance.mean);
       if (each > 0) continue;
       measures.statistics = statistics;
-      measures.energy = measure_energy(map, {.monitor = without_progress(monitor)});
+      add_measures(map, monitor, measures);
     }
     reader.set_level(0);
   }
@@ -316,11 +328,17 @@ void Info::run() const {
     }
     if (measured) {
       if (!json) {
+        if (measures.edges) print_edges(*measures.edges);
         print_statistics(measures.statistics);
         print_energy(measures.energy);
       }
       report["statistics"] = statistics_of(measures.statistics);
       report["statistics"]["energy"] = json_of(measures.energy);
+      if (measures.edges) {
+        report["face_edges"] = {{"across", measures.edges->across},
+                                {"beside", measures.edges->beside},
+                                {"join", measures.edges->join()}};
+      }
     }
     all.push_back(std::move(report));
   }

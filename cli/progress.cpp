@@ -77,7 +77,8 @@ void print_warnings(const std::string& path, const std::vector<std::string>& war
 
 void print_warning(const std::string& path, const std::string& warning) {
   if (!quiet)
-    print_message(fmt::format("welkin: {}: {}\n", printable(path), printable(with_option(warning))));
+    print_message(
+        fmt::format("welkin: {}: {}\n", printable(path), printable(with_option(warning), kLongestWarning)));
 }
 
 void set_quiet(bool is_quiet) {

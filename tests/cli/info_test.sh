@@ -45,6 +45,19 @@ near "direction of the sun" "$(grep -m 1 -A 3 '"direction"' "$work/json" | grep 
 near "share of the sun" "$(number share <"$work/json")" 1 0.06
 near "peak of the sun" "$(number peak <"$work/json")" 1000 1
 near "light of the sun" "$(number integral <"$work/json")" "$(awk "BEGIN { print 1000 * 2 * $pi * (1 - cos(2 * $pi / 180)) }")" 0.05
+# The edges of every cube's faces, and of nothing else.
+matches '^  edges of faces    steps of 0 stops across them, 0 beside them: they join$' info two.exr
+must synth studio cube.exr --to cube:hstrip --size 64
+matches '^  edges of faces    steps of 0\.[0-9]+ stops across them, 0\.[0-9]+ beside them: they join$' info cube.exr
+must convert cube.exr mixed.pfm --to-faces px,nx,py:90,nz,pz,ny
+matches '^  edges of faces    steps of [0-9.]+ stops across them, 0\.[0-9]+ beside them: they do not join$' info mixed.pfm --from-convention native
+matches '^  edges of faces    .*: they join$' info mixed.pfm
+"$welkin" info cube.exr --json >"$work/json"
+checks=$((checks + 1))
+grep -A 4 '"face_edges"' "$work/json" | grep -q '"join": true' || fail "info --json tells no edges"
+must info sun.exr
+checks=$((checks + 1))
+! grep -q 'edges of faces' "$work/out" || fail "a lat-long has edges of faces"
 # Attributes of a file can't write to the terminal.
 must synth constant plain.exr --size 4
 sed 's/latlong/\x1b[31mq/' plain.exr >coloured.exr
