@@ -16,6 +16,12 @@ std::string irradiance_of(const std::string& path) {
 
 void fit_to_convention(const std::string& path, const std::string& convention, MapShape& shape) {
   if (convention.empty()) {
+    if (path.find("%s") != std::string::npos && shape.layout.kind == LayoutKind::files &&
+        shape.parameterization.traits().cube_faces)
+      print_warning(
+          path,
+          "its faces are those of the native world, in which +X is to the left of +Z; engines expect "
+          "it to the right: --convention three.js, unity…");
     if (irradiance_of(path) == "babylon")
       print_warning(path,
                     "is in the native world, which no scene of Babylon.js is: --convention babylon or "

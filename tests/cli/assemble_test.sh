@@ -3,7 +3,7 @@
 . "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
 must synth axes axes.exr --size 512
-must convert axes.exr face_%s.exr --to cube:faces --size 192
+must convert axes.exr face_%s.exr --to cube:faces --size 192 -q
 
 # The faces of a cube, as pictures with a direction each, are the world again.
 faces=(--panel face_pz.exr,fov=90 --panel face_nx.exr,fov=90,yaw=90 --panel face_nz.exr,fov=90,yaw=180

@@ -150,7 +150,7 @@ for layout in hcross:192:147 flat:192:147 bands:192:130; do
 done
 
 # Files of faces: too few, of two sizes, of none.
-must synth axes face-%s.exr --to cube:faces --size 8
+must synth axes face-%s.exr --to cube:faces --size 8 -q
 refuses 1 "none-%s.exr: none of none-px.exr, none-posx.exr, .* exists" info none-%s.exr
 rm face-ny.exr
 refuses 1 "face-ny.exr: No such file" convert face-%s.exr out.exr

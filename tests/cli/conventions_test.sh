@@ -124,6 +124,9 @@ matches '^  welkin.convention +three.js$' info again.ktx2 --header
 same cube.ktx2 again.ktx2 0 --from-convention native
 tells_text "which the file cannot say" convert cube.ktx2 six-%s.pfm --to cube:faces
 must convert card.exr told-%s.pfm --to cube:faces --size 32 --convention three.js
+tells_text "its faces are those of the native world, in which +X is to the left of +Z; engines expect it to the right: --convention three.js" \
+  convert card.exr plain-%s.pfm --to cube:faces --size 32
+must convert card.exr plain-%s.pfm --to cube:faces --size 32 --convention native
 same told-%s.pfm six-%s.pfm 1e-3
 must convert cube.ktx2 panorama.exr --to latlong --size 128 -q
 shows panorama.exr "1,0,0=0,0,1 0,0,1=-1,0,0" 0.08 --from-convention native

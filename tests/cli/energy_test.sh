@@ -36,7 +36,7 @@ for option in "--border 4" "--to-faces nz,pz:90,px,nx,py:180:mirror,ny" "--conve
   # shellcheck disable=SC2086
   must convert sun.exr kept.exr --to cube --verify $option
 done
-must convert sun.exr 'face_%s.exr' --to cube:faces --verify
+must convert sun.exr 'face_%s.exr' --to cube:faces --verify -q
 must convert sun.exr kept.hdr --to cube --verify
 
 # What doesn't is told, and what would.

@@ -59,7 +59,7 @@ grep -q '5 levels' "$work/out" && grep -qE '^  welkin.frame +0.5\*1 \+ 0.5\*5 ' 
 
 # ---- %s stays a face's name; a file that is really called so is one map
 for frame in 1 2; do
-  must convert sky/f_000$frame.hdr "faces_0${frame}_%s.png" --to cube:faces --size 16 --exposure -8
+  must convert sky/f_000$frame.hdr "faces_0${frame}_%s.png" --to cube:faces --size 16 --exposure -8 -q
 done
 must bake 'faces_%02d_%s.png' out/faces_%02d.ktx2 --size 8
 is "faces" "$(cd out && echo faces_*)" "faces_01.ktx2 faces_02.ktx2"

@@ -16,7 +16,7 @@ while read -r shape; do
   fi
   file=map place=
   if [[ $layout == faces ]]; then place=-%s; fi
-  must convert reference.exr "$file$place.exr" --to "$shape"
+  must convert reference.exr "$file$place.exr" --to "$shape" -q
   same reference.exr "$file$place.exr" 0
   if [[ $name != openexr-cube ]]; then
     matches "\"parameterization\": \"$shape\"" info "$file$place.exr" --header --json
@@ -25,14 +25,14 @@ while read -r shape; do
     must convert reference.exr map.tif --to "$shape"
     same reference.exr map.tif 0 --from-b "$shape"
   else
-    must convert reference.exr "$file$place.pfm" --to "$shape"
+    must convert reference.exr "$file$place.pfm" --to "$shape" -q
     same reference.exr "$file$place.pfm" 0 --from-b "$shape"
   fi
   # A safety border around every chart is written and left out again: declared by the file, or named.
-  must convert reference.exr "$file$place.exr" --to "$shape" --border 3
+  must convert reference.exr "$file$place.exr" --to "$shape" --border 3 -q
   same reference.exr "$file$place.exr" 0
   if [[ $layout != layers ]]; then
-    must convert reference.exr "$file$place.pfm" --to "$shape" --border 1
+    must convert reference.exr "$file$place.pfm" --to "$shape" --border 1 -q
     must convert "$file$place.pfm" bare.exr --from "$shape" --from-border 1 --to "$name:layers"
     same reference.exr bare.exr 0
   fi
@@ -40,7 +40,7 @@ while read -r shape; do
 done <layouts
 
 # Files of faces are named for them.
-must synth axes face-%s.exr --to cube:faces --size 8
+must synth axes face-%s.exr --to cube:faces --size 8 -q
 must synth axes tile-%s.exr --to healpix:faces --size 8
 for file in face-{px,nx,py,ny,pz,nz}.exr tile-{0,1,2,3,4,5,6,7,8,9,10,11}.exr; do
   checks=$((checks + 1))
@@ -83,7 +83,7 @@ cube:3x2 192 128 $(awk "BEGIN { print 64 + $left, 64 + $down }")
 END
 must "${sun[@]}" sun.pfm --to latlong --size 360
 near "the sun in a lat-long" "$(centre_of_light sun.pfm 360 180)" "150 80" 0.2
-must "${sun[@]}" sun-%s.pfm --to cube:faces --size 64
+must "${sun[@]}" sun-%s.pfm --to cube:faces --size 64 -q
 near "the sun in a face" "$(centre_of_light sun-pz.pfm 64 64)" "$left $down" 0.2
 must "${sun[@]}" sun.tif --to cube:layers --size 64
 must convert sun.tif layer.pfm --from octahedral --to octahedral --part 4

@@ -75,7 +75,7 @@ checks=$((checks + 2))
 "$welkin" diff lit_off.exr lit_map.exr --fail-above 0.5 >/dev/null 2>&1 && fail "the light lights nothing"
 
 # Six images of another program are a cube.
-must convert cube.exr face_%s.exr --to cube:faces
+must convert cube.exr face_%s.exr --to cube:faces -q
 must convert face_%s.exr again.exr --from cube:faces --to octahedral --size 64
 must convert cube.exr straight.exr --to octahedral --size 64
 same straight.exr again.exr 1e-6
