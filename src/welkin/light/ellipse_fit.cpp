@@ -60,36 +60,39 @@ Vec3d LightPlane::direction(const PlanePoint& p) const {
 void EllipseFit::begin_texel(double value, double width) {
   widths_.push_back(width / side_);
   values_.push_back(value);
+  weights_.push_back(0);
   squares_ += value * value;
 }
 
 void EllipseFit::add_point(const PlanePoint& point, double weight) {
   points_.push_back({point.x / side_, point.y / side_, weight});
+  weights_.back() += weight;
 }
 
 std::vector<double> EllipseFit::residuals(const Parameters& p, double fixed) const {
   const Ellipse e = ellipse_from(p, fixed);
   const double c = std::cos(e.angle), s = std::sin(e.angle);
   const std::size_t points = static_cast<std::size_t>(parts_ * parts_);
-  // How far a point lies inside, of the width that it stands for.
-  const auto inside = [&](const Point& point, double width) {
+  // How far a point lies inside, of the width that it stands for. Beyond `rim` of the edge, in units of the
+  // distance to it, that is 0 or 1.
+  const auto inside = [&](const Point& point, double width, double rim) {
     const double dx = point.x - e.x, dy = point.y - e.y;
     const double x = (c * dx + s * dy) / e.a, y = (c * dy - s * dx) / e.b;
     const double square = x * x + y * y;
-    if (square < 1e-12) return 1.0;
-    const double radius = std::sqrt(square);
-    const double slope = std::hypot(x / e.a, y / e.b) / radius;
+    if (square >= (1 + rim) * (1 + rim)) return 0.0;
+    if (square < 1e-12 || (rim < 1 && square <= (1 - rim) * (1 - rim))) return 1.0;
+    const double radius = std::sqrt(square), xa = x / e.a, yb = y / e.b;
+    const double slope = std::sqrt(xa * xa + yb * yb) / radius;
     return std::clamp(0.5 - (radius - 1) / (slope * width), 0.0, 1.0);
   };
   std::vector<double> covered(values_.size());
   double product = 0, square = 0;
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    double total = 0;
-    for (std::size_t k = i * points; k < (i + 1) * points; ++k) {
-      covered[i] += points_[k].weight * inside(points_[k], widths_[i] / parts_);
-      total += points_[k].weight;
-    }
-    covered[i] /= total;
+    // `slope` is at most 1 over the shorter half axis.
+    const double width = widths_[i] / parts_, rim = width / (2 * std::min(e.a, e.b));
+    for (std::size_t k = i * points; k < (i + 1) * points; ++k)
+      covered[i] += points_[k].weight * inside(points_[k], width, rim);
+    covered[i] /= weights_[i];
     product += covered[i] * values_[i];
     square += covered[i] * covered[i];
   }

@@ -65,7 +65,7 @@ class EllipseFit {
 
   double side_;
   int parts_;
-  std::vector<double> values_, widths_;
+  std::vector<double> values_, widths_, weights_;  ///< of texels; weights are the sums of their points
   double squares_ = 0;
   struct Point {
     double x, y, weight;
