@@ -23,8 +23,8 @@ struct LevelPlan {
   int smaller;
 };
 /// Closer where narrow lobes change. Faces halved from level to level would leave the widest lobes a texel.
-constexpr LevelPlan kRough[] = {{0, 1},    {0.05, 1}, {0.1, 1}, {0.2, 2}, {0.3, 4},
-                                {0.45, 8}, {0.6, 8},  {0.8, 8}, {1, 8}};
+constexpr LevelPlan kRough[] = {{0, 1},    {0.05, 1}, {0.1, 1}, {0.2, 1}, {0.3, 2},
+                                {0.45, 4}, {0.6, 4},  {0.8, 8}, {1, 8}};
 /// Of Charlie's chain, none of which is narrow throughout.
 constexpr LevelPlan kSheen[] = {{0.07, 1}, {0.14, 1}, {0.28, 2}, {0.5, 2}, {1, 2}};
 

@@ -102,7 +102,7 @@ TEST(Stack, AgreesWithSplitSumsAtNormalIncidence) {
   const World world(synth_map("studio"));
   Material material;
   material.metallic = 1;
-  material.roughness = 0.3f;
+  material.roughness = 0.35f;
   const Surface at = facing({0.2, 0.3, 0.9}, {0.2, 0.3, 0.9}, material);
   const Rgb stack = shaded(*make_shading("stack", {world}), at),
             split = shaded(*make_shading("material", {world}), at);

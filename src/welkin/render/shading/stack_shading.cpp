@@ -29,7 +29,9 @@ class StackShading : public Shading {
     ViewBakeOptions bake;
     bake.brdf = brdf::AnyBrdf::make(options.brdf);
     rough_ = bake.brdf.has_roughness();
-    bake.bake.size = ChartSize{128, 128};
+    // Each level has half the side of the one before: few, so that the widest lobes keep some texels.
+    bake.bake.size = ChartSize{192, 192};
+    if (rough_) bake.bake.curve = lobe::RoughnessCurve::from_name("0,0.1,0.2,0.35,0.6,1");
     for_each_world(worlds_, [&](const World& world) {
       stacks_.emplace(&world.map(), ViewStack(bake_views(world.map(), bake)));
     });
