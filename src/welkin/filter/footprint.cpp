@@ -77,7 +77,7 @@ Footprint footprint_at(const Map& source, const MapFrame& target, const Matrix3&
   return footprint;
 }
 
-double narrow_footprint(const Map& source, const MapFrame& target, const Matrix3& to_source) {
+FootprintSides footprints_of(const Map& source, const MapFrame& target, const Matrix3& to_source) {
   struct Side {
     double length, solid_angle;
   };
@@ -96,12 +96,14 @@ double narrow_footprint(const Map& source, const MapFrame& target, const Matrix3
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.length < b.length; });
+  FootprintSides found{HUGE_VAL, HUGE_VAL};
   double narrower = 0;
   for (const Side& side : sides) {
     narrower += side.solid_angle;
-    if (narrower > 0.05 * total) return side.length;
+    if (narrower > 0.05 * total) found.narrow = std::min(found.narrow, side.length);
+    if (narrower > 0.5 * total) found.typical = std::min(found.typical, side.length);
   }
-  return HUGE_VAL;
+  return found;
 }
 
 bool is_reconstructed(double narrow_side) {
@@ -109,7 +111,7 @@ bool is_reconstructed(double narrow_side) {
 }
 
 bool is_reconstructed(const Map& source, const MapFrame& target, const Matrix3& to_source) {
-  return is_reconstructed(narrow_footprint(source, target, to_source));
+  return is_reconstructed(footprints_of(source, target, to_source).narrow);
 }
 
 }  // namespace welkin

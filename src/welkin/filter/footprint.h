@@ -26,9 +26,12 @@ struct Footprint {
 Footprint footprint_at(const Map& source, const MapFrame& target, const Matrix3& to_source, int chart,
                        double x, double y);
 
-/// The narrow side of a target's footprints, by a sample of them: narrower ones make up a twentieth of the
-/// solid angle. Infinite where there is none.
-double narrow_footprint(const Map& source, const MapFrame& target, const Matrix3& to_source);
+/// The narrow sides of a target's footprints, by a sample of them. Infinite where there is none.
+struct FootprintSides {
+  double narrow;   ///< narrower ones make up a twentieth of the solid angle
+  double typical;  ///< half of it
+};
+FootprintSides footprints_of(const Map& source, const MapFrame& target, const Matrix3& to_source);
 
 /// Whether Filter::automatic reconstructs what is within a source's texels: while footprints are narrower
 /// than 1¾ of them. Beyond, it takes texels as they are. For all of a target alike, or light would

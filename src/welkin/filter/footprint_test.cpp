@@ -79,11 +79,11 @@ TEST(FootprintTest, EdgesAndPolesOfTheSourceAreNotLost) {
 TEST(FootprintTest, TheNarrowSideLeavesPolesAside) {
   const Map cube = make_map("cube", 256), small_cube = make_map("cube", 16),
             latlong = make_map("latlong", 32);
-  const double ratio = narrow_footprint(cube, small_cube, {});
+  const double ratio = footprints_of(cube, small_cube, {}).narrow;
   EXPECT_NEAR(ratio, 16, 0.05);
   const double side = 256.0 * 2 / (kPi * latlong.height() / 2);
-  EXPECT_GT(narrow_footprint(cube, latlong, {}), 0.25 * side);
-  EXPECT_LT(narrow_footprint(cube, latlong, {}), side);
+  EXPECT_GT(footprints_of(cube, latlong, {}).narrow, 0.25 * side);
+  EXPECT_LT(footprints_of(cube, latlong, {}).narrow, side);
   EXPECT_TRUE(is_reconstructed(small_cube, cube, {}));
   EXPECT_FALSE(is_reconstructed(cube, small_cube, {}));
 }

@@ -46,21 +46,34 @@ std::vector<float> bright_of(const sphere::AnyParameterization& p, const Level& 
 }  // namespace
 
 OverlapMeans::OverlapMeans(const sphere::AnyParameterization& source, const Level& level, bool reconstructed,
-                           bool limited)
+                           bool limited, int parts)
     : source_(source),
       view_(view_of(level)),
       kernels_(reconstruction_kernels(level.channels())),
+      parts_(parts),
+      size_{view_.width * parts, view_.height * parts},
       reconstructed_(reconstructed),
       full_(source.full_charts()),
       by_row_(source.density_by_row() && full_),
       bright_(bright_of(source, level)) {
   how_.limited = limited;
   how_.bright = bright_.data();
-  if (!by_row_) return;
-  bend_ = bends_of(source, view_.height);
-  row_angle_.resize(static_cast<std::size_t>(view_.height));
-  for (int y = 0; y < view_.height; ++y)
-    texel_solid_angles(source, 1, view_.height, 0, y, &row_angle_[static_cast<std::size_t>(y)]);
+  if (by_row_) {
+    bend_ = bends_of(source, size_.height);
+    row_angle_.resize(static_cast<std::size_t>(size_.height));
+    for (int y = 0; y < size_.height; ++y)
+      texel_solid_angles(source, 1, size_.height, 0, y, &row_angle_[static_cast<std::size_t>(y)]);
+  }
+  if (parts > 1)
+    refinement_.emplace(view_, PartsOfTexels{source, parts, by_row_ ? &row_angle_ : nullptr}, how_, kernels_);
+}
+
+void OverlapMeans::reconstruct(ReconstructedTexels& texels, Work& work) const {
+  if (refinement_.has_value()) {
+    refinement_->reconstruct(work.refinement, texels);
+  } else {
+    kernels_.reconstruct(view_, how_, texels);
+  }
 }
 
 bool OverlapMeans::mean(const std::vector<OutlineLoop>& loops, const ReconstructedTexels& known, Work& work,
@@ -76,10 +89,10 @@ bool OverlapMeans::mean(const std::vector<OutlineLoop>& loops, const Reconstruct
       low_y = std::min(low_y, p.y);
       high_y = std::max(high_y, p.y);
     }
-    const int left = std::clamp(static_cast<int>(std::floor(low_x)), 0, view_.width - 1),
-              right = std::clamp(static_cast<int>(std::floor(high_x)), 0, view_.width - 1);
-    const int top = std::clamp(static_cast<int>(std::floor(low_y)), 0, view_.height - 1),
-              bottom = std::clamp(static_cast<int>(std::floor(high_y)), 0, view_.height - 1);
+    const int left = std::clamp(static_cast<int>(std::floor(low_x)), 0, size_.width - 1),
+              right = std::clamp(static_cast<int>(std::floor(high_x)), 0, size_.width - 1);
+    const int top = std::clamp(static_cast<int>(std::floor(low_y)), 0, size_.height - 1),
+              bottom = std::clamp(static_cast<int>(std::floor(high_y)), 0, size_.height - 1);
     const int columns = right - left + 1, rows = bottom - top + 1;
     const bool covered = !known.coefficients.empty() && known.chart == loop.chart && left >= known.x &&
                          right < known.x + known.width && top >= known.y && bottom < known.y + known.height;
@@ -88,7 +101,7 @@ bool OverlapMeans::mean(const std::vector<OutlineLoop>& loops, const Reconstruct
       texels = nullptr;
     } else if (!covered) {
       work.few.reset(loop.chart, left, top, columns, rows, view_.channels);
-      kernels_.reconstruct(view_, how_, work.few);
+      reconstruct(work.few, work);
       texels = &work.few;
     }
     work.overlap.start(left, top, columns, rows);
@@ -98,7 +111,7 @@ bool OverlapMeans::mean(const std::vector<OutlineLoop>& loops, const Reconstruct
     }
     const auto add = [&](int x, int y, int count, const OverlapMoments& m) {
       constexpr double kWhole = 1 - 1e-6;
-      if (count > 1 && std::fabs(m.area) > kWhole) {
+      if (parts_ == 1 && count > 1 && std::fabs(m.area) > kWhole) {
         add_whole(loop.chart, x, y, count, m.area, work, total);
         return;
       }
@@ -131,8 +144,8 @@ bool OverlapMeans::mean(const std::vector<OutlineLoop>& loops, const Reconstruct
 }
 
 void OverlapMeans::lift(int chart, float left, float top, float right, float bottom, float* out) const {
-  const auto cell = [](float position, int size) {
-    return std::clamp(static_cast<int>(std::floor(position)), 0, size - 1);
+  const auto cell = [this](float position, int size) {
+    return std::clamp(static_cast<int>(std::floor(position / static_cast<float>(parts_))), 0, size - 1);
   };
   const int x0 = cell(left, view_.width) - 1, x1 = cell(right, view_.width) + 1;
   const int y0 = cell(top, view_.height) - 1, y1 = cell(bottom, view_.height) + 1;
@@ -140,21 +153,21 @@ void OverlapMeans::lift(int chart, float left, float top, float right, float bot
     if (!(out[c] < 0)) continue;
     float lowest = 0;
     for (int y = y0; y <= y1; ++y) {
-      for (int x = x0; x <= x1; ++x) lowest = std::min(lowest, texel_at(chart, x, y)[c]);
+      for (int x = x0; x <= x1; ++x) lowest = std::min(lowest, texel_at(chart, x * parts_, y * parts_)[c]);
     }
     out[c] = std::max(out[c], lowest);
   }
 }
 
 double OverlapMeans::density(int chart, double x, double y) const {
-  return std::max(0.0, source_.solid_angle_density(chart, x / view_.width, y / view_.height));
+  return std::max(0.0, source_.solid_angle_density(chart, x / size_.width, y / size_.height));
 }
 
 /// Up to a factor.
 double OverlapMeans::solid_angle(int chart, int x, int y) const {
   if (by_row_) return static_cast<double>(row_angle_[static_cast<std::size_t>(y)]);
   constexpr int kFine = 256;
-  if (view_.width >= kFine) return density(chart, x + 0.5, y + 0.5);
+  if (size_.width >= kFine) return density(chart, x + 0.5, y + 0.5);
   constexpr double kGauss = 0.21132486540518713;
   return 0.25 * (density(chart, x + kGauss, y + kGauss) + density(chart, x + 1 - kGauss, y + kGauss) +
                  density(chart, x + kGauss, y + 1 - kGauss) + density(chart, x + 1 - kGauss, y + 1 - kGauss));
@@ -172,8 +185,8 @@ double OverlapMeans::solid_angle_of_part(int chart, int x, int y, double of_texe
 bool OverlapMeans::is_cut(int chart, int x, int y) const {
   if (full_) return false;
   for (int k = 0; k < 4; ++k) {
-    if (!source_.valid(chart, static_cast<double>(x + k % 2) / view_.width,
-                       static_cast<double>(y + k / 2) / view_.height))
+    if (!source_.valid(chart, static_cast<double>(x / parts_ + k % 2) / view_.width,
+                       static_cast<double>(y / parts_ + k / 2) / view_.height))
       return true;
   }
   return false;
@@ -208,8 +221,10 @@ void OverlapMeans::add_part(const ReconstructedTexels& texels, int x, int y, con
 }
 
 const float* OverlapMeans::texel_at(int chart, int x, int y) const {
-  return view_.texels + chart * view_.chart_stride + y * view_.row_stride +
-         static_cast<std::ptrdiff_t>(x) * view_.channels;
+  // Of the border too: divisions round down.
+  const auto texel = [this](int part) { return (part + kBorder * parts_) / parts_ - kBorder; };
+  return view_.texels + chart * view_.chart_stride + texel(y) * view_.row_stride +
+         static_cast<std::ptrdiff_t>(texel(x)) * view_.channels;
 }
 
 void OverlapMeans::add_whole(int chart, int x, int y, int count, double area, Work& work,

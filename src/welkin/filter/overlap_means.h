@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "welkin/filter/outline.h"
 #include "welkin/filter/overlap.h"
-#include "welkin/filter/reconstruction.h"
+#include "welkin/filter/refinement.h"
 
 /// Exact means over areas of a source. Internal to resample.
 namespace welkin {
@@ -17,20 +18,24 @@ class OverlapMeans {
     explicit Work(const OverlapMeans& means) : overlap(means.by_row_ ? &means.bend_ : nullptr) {}
     Overlap overlap;
     ReconstructedTexels few;
+    RefinementWork refinement;
     std::vector<double> sum;
   };
 
   /// Of a level of the source, which must outlive this. `reconstructed`: by what is within texels, and not by
-  /// their own values; `limited`: with the limiter.
+  /// their own values; `limited`: with the limiter; `parts`: of a side of each texel (refinement.h), 1 unless
+  /// both. All positions and rectangles below are counted in parts.
   OverlapMeans(const sphere::AnyParameterization& source, const Level& level, bool reconstructed,
-               bool limited);
+               bool limited, int parts);
   // Reconstruction points into it.
   OverlapMeans(const OverlapMeans&) = delete;
   OverlapMeans& operator=(const OverlapMeans&) = delete;
 
   bool reconstructed() const { return reconstructed_; }
+  /// Parts of a chart.
+  ChartSize size() const { return size_; }
   /// Fills `texels`.
-  void reconstruct(ReconstructedTexels& texels) const { kernels_.reconstruct(view_, how_, texels); }
+  void reconstruct(ReconstructedTexels& texels, Work& work) const;
   const ReconstructionKernels& kernels() const { return kernels_; }
 
   /// The mean over loops, `channels` values. False where they enclose nothing. `known` may hold
@@ -52,11 +57,14 @@ class OverlapMeans {
   double solid_angle(int chart, int x, int y) const;
   double solid_angle_of_part(int chart, int x, int y, double of_texel, const OverlapMoments& m) const;
   bool is_cut(int chart, int x, int y) const;
+  /// That a part is of.
   const float* texel_at(int chart, int x, int y) const;
 
   const sphere::AnyParameterization& source_;
   const LevelView view_;
   const ReconstructionKernels kernels_;
+  const int parts_;
+  const ChartSize size_;
   const bool reconstructed_;
   const bool full_;               ///< all positions of the source are valid
   const bool by_row_;             ///< texels of a row have one solid angle
@@ -64,6 +72,7 @@ class OverlapMeans {
   std::vector<float> row_angle_;  ///< solid angles of rows, sr
   std::vector<float> bright_;
   Reconstruction how_;
+  std::optional<Refinement> refinement_;  ///< where there is more than one part
 };
 
 }  // namespace welkin

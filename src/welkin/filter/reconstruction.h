@@ -115,6 +115,13 @@ struct Quadrilateral {
   float x[4], y[4], weight[4];
 };
 
+/// Rows of values, one for each part of texels, `stride` apart.
+struct DividedRow {
+  const float* shares;  ///< of each part in its texel's solid angle
+  float* parts;         ///< out: means over the parts
+  std::size_t stride;
+};
+
 struct ReconstructionKernels {
   /// Fills `out`, whose rectangle lies inside the chart.
   void (*reconstruct)(const LevelView& level, const Reconstruction& how, ReconstructedTexels& out);
@@ -122,6 +129,12 @@ struct ReconstructionKernels {
   /// for four more. The rules are for points across and down the target's texel.
   void (*means)(const ReconstructedTexels& texels, const QuadraturePoints& across,
                 const QuadraturePoints& down, const Quadrilateral* areas, std::size_t count, float* means);
+  /// Divides a row of texels into 2×2 or 4×4 parts each (refinement.h), given their reconstructions without a
+  /// limiter.
+  void (*divide)(const LevelView& texels, const ReconstructedTexels& whole, int row, int parts,
+                 const DividedRow& out);
+  /// Fills the coefficients of `out` from a level of parts.
+  void (*reconstruct_parts)(const LevelView& parts, ReconstructedTexels& out);
 };
 
 ReconstructionKernels reconstruction_kernels_baseline(int channels);

@@ -1,6 +1,6 @@
 // Compiled with -mavx2 -mfma; called only when the processor has both. See fetch_avx2.cpp for the packs of
 // four.
-#include "welkin/filter/reconstruction_impl.h"
+#include "welkin/filter/refinement_impl.h"
 
 namespace welkin {
 

@@ -1,4 +1,4 @@
-#include "welkin/filter/reconstruction_impl.h"
+#include "welkin/filter/refinement_impl.h"
 
 namespace welkin {
 

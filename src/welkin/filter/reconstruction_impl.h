@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "welkin/filter/fetch_impl.h"
 #include "welkin/filter/reconstruction.h"
 
@@ -13,7 +15,7 @@ class ReconstructionOf {
   static constexpr std::ptrdiff_t kSize = static_cast<std::ptrdiff_t>(Pack::size);
 
   static void reconstruct(const LevelView& level, const Reconstruction& how, ReconstructedTexels& out) {
-    const std::ptrdiff_t channels = out.channels, row = out.width * channels, plane = out.plane();
+    const std::ptrdiff_t channels = out.channels, row = out.width * channels;
     const float* first = level.texels + out.chart * level.chart_stride + out.y * level.row_stride +
                          static_cast<std::ptrdiff_t>(out.x) * channels;
     // Slopes along x of the rows that a_xy reads.
@@ -34,7 +36,6 @@ class ReconstructionOf {
     for (int y = 0; y < out.height; ++y) {
       const float* texels = first + y * level.row_stride;
       const float* slope = slopes + (y + kReach) * slope_row;
-      float* to = out.coefficients.data() + y * row;
       for (std::ptrdiff_t i = 0; i < row; i += kSize) {
         const Pack m = Pack::load_unaligned(texels + i);
         Coefficients a{m,
@@ -70,18 +71,7 @@ class ReconstructionOf {
           const Pack positive = xsimd::select(lowest + Pack(kDeep) * xsimd::abs(m) < zero, strict, shallow);
           limit(a, lowest, xsimd::max(positive, low - beyond), highest, high + beyond);
         }
-        a.m -= Pack(1.0f / 12) * (a.xx + a.yy);
-        const Pack* values[kCoefficients] = {&a.m, &a.x, &a.y, &a.xx, &a.xy, &a.yy};
-        const std::ptrdiff_t here = row - i;
-        for (int k = 0; k < kCoefficients; ++k) {
-          if (here >= kSize) {
-            values[k]->store_unaligned(to + k * plane + i);
-          } else {
-            alignas(64) float part[Pack::size];
-            values[k]->store_aligned(part);
-            for (std::ptrdiff_t j = 0; j < here; ++j) to[k * plane + i + j] = part[j];
-          }
-        }
+        store(a, out, y, i);
       }
       std::uint8_t* beside = out.hard.data() + static_cast<std::ptrdiff_t>(y) * out.width;
       for (int x = 0; x < out.width; ++x) {
@@ -165,10 +155,26 @@ class ReconstructionOf {
     }
   }
 
- private:
+ protected:
   struct Coefficients {
     Pack m, x, y, xx, xy, yy;
   };
+
+  /// The values from `i` on of a row.
+  static void store(const Coefficients& a, ReconstructedTexels& out, int y, std::ptrdiff_t i) {
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(out.width) * out.channels, here = row - i;
+    const Pack values[kCoefficients] = {a.m - Pack(1.0f / 12) * (a.xx + a.yy), a.x, a.y, a.xx, a.xy, a.yy};
+    float* to = out.coefficients.data() + y * row + i;
+    for (int k = 0; k < kCoefficients; ++k, to += out.plane()) {
+      if (here >= kSize) {
+        values[k].store_unaligned(to);
+      } else {
+        alignas(64) float part[Pack::size];
+        values[k].store_aligned(part);
+        std::copy_n(part, here, to);
+      }
+    }
+  }
 
   static Pack odd(const float* at, std::ptrdiff_t step) {
     Pack sum(0.0f);
@@ -218,20 +224,5 @@ class ReconstructionOf {
     a.yy *= share;
   }
 };
-
-template <class Wide, class Four>
-ReconstructionKernels reconstruction_kernels_of(int channels) {
-  using Kernels = ReconstructionOf<Wide, Four>;
-  switch (channels) {
-    case 1:
-      return {Kernels::reconstruct, Kernels::template means<1>};
-    case 3:
-      return {Kernels::reconstruct, Kernels::template means<3>};
-    case 4:
-      return {Kernels::reconstruct, Kernels::template means<4>};
-    default:
-      return {Kernels::reconstruct, Kernels::template means<0>};
-  }
-}
 
 }  // namespace welkin

@@ -36,12 +36,13 @@ class MeanMaker final : public TexelMaker {
  public:
   explicit MeanMaker(ResampleJob whole)
       : job_(std::move(whole)),
-        narrow_(narrow_footprint(job_.source, job_.target, job_.to_source)),
-        level_(level_for(job_.source, narrow_, coarse_)),
+        footprints_(footprints_of(job_.source, job_.target, job_.to_source)),
+        level_(level_for(job_.source, footprints_.narrow, coarse_)),
         view_(view_of(level_)),
-        means_(job_.source.parameterization, level_, is_reconstructed(narrow_), !job_.options.allow_ringing),
+        means_(job_.source.parameterization, level_, is_reconstructed(footprints_.narrow),
+               !job_.options.allow_ringing, job_.options.allow_ringing ? 1 : parts_for(footprints_.typical)),
         samples_(job_, view_),
-        outline_(job_.source.parameterization, {view_.width, view_.height}, job_.target, job_.to_source) {}
+        outline_(job_.source.parameterization, means_.size(), job_.target, job_.to_source) {}
 
   int rows() const override { return kBlock; }
 
@@ -57,7 +58,8 @@ class MeanMaker final : public TexelMaker {
   }
 
  private:
-  /// A block's corners in the source, in texels, one more row and column around.
+  /// A block's corners in the source, in texels or parts of them (OverlapMeans), one more row and column
+  /// around.
   struct Corners {
     float chart[kLines][kLines], x[kLines][kLines], y[kLines][kLines], weight[kLines][kLines];
   };
@@ -300,16 +302,16 @@ class MeanMaker final : public TexelMaker {
         }
       }
       if (chart_seen < 0) return false;
-      const int left = std::clamp(static_cast<int>(std::floor(low_x)), 0, maker.view_.width - 1),
-                right = std::clamp(static_cast<int>(std::floor(high_x)), 0, maker.view_.width - 1);
-      const int top = std::clamp(static_cast<int>(std::floor(low_y)), 0, maker.view_.height - 1),
-                bottom = std::clamp(static_cast<int>(std::floor(high_y)), 0, maker.view_.height - 1);
+      const int left = std::clamp(static_cast<int>(std::floor(low_x)), 0, maker.means_.size().width - 1),
+                right = std::clamp(static_cast<int>(std::floor(high_x)), 0, maker.means_.size().width - 1);
+      const int top = std::clamp(static_cast<int>(std::floor(low_y)), 0, maker.means_.size().height - 1),
+                bottom = std::clamp(static_cast<int>(std::floor(high_y)), 0, maker.means_.size().height - 1);
       const int columns = right - left + 1, rows = bottom - top + 1;
       if (static_cast<float>(columns * rows) >
           3.0f * static_cast<float>(part.width * part.height) * std::max(1.0f, longest * longest) + 256)
         return false;
       work.texels.reset(static_cast<int>(chart_seen), left, top, columns, rows, maker.view_.channels);
-      maker.means_.reconstruct(work.texels);
+      maker.means_.reconstruct(work.texels, work.overlaps);
       work.any_hard = std::any_of(work.texels.hard.begin(), work.texels.hard.end(),
                                   [](std::uint8_t each) { return each != 0; });
       if (work.any_hard) work.texels.count_hard();
@@ -363,8 +365,8 @@ class MeanMaker final : public TexelMaker {
       for (int row = first; row < last; ++row) {
         for (int column = 0; column < columns; ++column, ++i) {
           corners.chart[row][column] = batch.chart[i];
-          corners.x[row][column] = batch.source_u[i] * static_cast<float>(view_.width);
-          corners.y[row][column] = batch.source_v[i] * static_cast<float>(view_.height);
+          corners.x[row][column] = batch.source_u[i] * static_cast<float>(means_.size().width);
+          corners.y[row][column] = batch.source_v[i] * static_cast<float>(means_.size().height);
           corners.weight[row][column] = covered == nullptr || covered[i] > 0 ? batch.weight[i] : -1.0f;
         }
       }
@@ -410,14 +412,14 @@ class MeanMaker final : public TexelMaker {
       for (int i = 0; i < kBetween && !straight[k]; ++i) {
         const int at = k * kBetween + i;
         if (static_cast<int>(batch.chart[at]) != loop.chart) continue;
-        loop.points.push_back({static_cast<double>(batch.source_u[at]) * view_.width,
-                               static_cast<double>(batch.source_v[at]) * view_.height});
+        loop.points.push_back({static_cast<double>(batch.source_u[at]) * means_.size().width,
+                               static_cast<double>(batch.source_v[at]) * means_.size().height});
       }
     }
   }
 
   const ResampleJob job_;
-  const double narrow_;  ///< side of footprints, source texels
+  const FootprintSides footprints_;
   std::vector<Level> coarse_;
   const Level& level_;  ///< what is read
   const LevelView view_;

@@ -2,7 +2,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/filter/footprint.h"
-#include "welkin/filter/reconstruction.h"
+#include "welkin/filter/refinement_reference.h"
 
 #include <algorithm>
 #include <array>
@@ -99,6 +99,11 @@ class Reference {
         options_(options),
         to_source_(source.orientation * transpose(options.rotation) * transpose(target.orientation)),
         reconstructed_(options.filter == Filter::automatic && is_reconstructed(source, target, to_source_)),
+        parts_(reconstructed_ && !options.allow_ringing
+                   ? parts_for(footprints_of(source, target, to_source_).typical)
+                   : 1),
+        size_{source.width() * parts_, source.height() * parts_},
+        refinement_(source.parameterization, source.level, parts_),
         by_row_(source.parameterization.density_by_row() && source.parameterization.full_charts()),
         samples_(options.filter == Filter::automatic ? samples : 1),
         fill_(options.fill.begin(), options.fill.end()) {
@@ -137,7 +142,7 @@ class Reference {
   }
 
  private:
-  /// Radiance within a texel of the source. Samples side by side mostly share one.
+  /// Radiance within a texel of the source, or a part of one. Samples side by side mostly share one.
   struct Within {
     int chart = -1, x = 0, y = 0;
     /// Of each channel: the texel, and the coefficients of x, y, x² − 1/12, x·y and y² − 1/12.
@@ -157,9 +162,9 @@ class Reference {
     const auto position = p.from_sphere(d);
     const ImageView<const float> chart = source_.level.chart(static_cast<int>(position.chart));
     if (options_.filter == Filter::automatic) {
-      const double x = position.u * source_.width(), y = position.v * source_.height();
-      const int column = static_cast<int>(clamp(std::floor(x), 0.0, source_.width() - 1.0)),
-                row = static_cast<int>(clamp(std::floor(y), 0.0, source_.height() - 1.0));
+      const double x = position.u * size_.width, y = position.v * size_.height;
+      const int column = static_cast<int>(clamp(std::floor(x), 0.0, size_.width - 1.0)),
+                row = static_cast<int>(clamp(std::floor(y), 0.0, size_.height - 1.0));
       const int number = static_cast<int>(position.chart);
       if (last.chart != number || last.x != column || last.y != row) last = within(number, column, row);
       // What differs from the texel's mean adds up to nothing over its area in the chart. So it is weighted
@@ -209,20 +214,24 @@ class Reference {
   Within within(int chart, int x, int y) const {
     Within texel{chart, x, y};
     const ImageView<const float> view = source_.level.chart(chart);
-    const bool reconstructed = reconstructed_ && is_whole(chart, x, y);
+    const int column = x / parts_, row = y / parts_;
+    const bool reconstructed = reconstructed_ && is_whole(chart, column, row);
     for (int c = 0; c < source_.channels(); ++c) {
-      texel.of.push_back(reconstructed ? reconstruction(view, x, y, c)
-                                       : std::array<double, 6>{static_cast<double>(view.at(x, y)[c])});
+      if (reconstructed) {
+        texel.of.push_back(parts_ > 1 ? refinement_.within(chart, x, y, c) : reconstruction(view, x, y, c));
+      } else {
+        texel.of.push_back({static_cast<double>(view.at(column, row)[c])});
+      }
       double lowest = 0;
       for (int k = 0; k < 9; ++k)
-        lowest = std::min(lowest, static_cast<double>(view.at(x + k % 3 - 1, y + k / 3 - 1)[c]));
+        lowest = std::min(lowest, static_cast<double>(view.at(column + k % 3 - 1, row + k / 3 - 1)[c]));
       texel.lowest.push_back(lowest);
     }
     if (reconstructed) {
       constexpr int kPoints = 4;
       const auto density = [&](double right, double down) {
-        return std::max(0.0, source_.parameterization.solid_angle_density(
-                                 chart, (x + right) / source_.width(), (y + down) / source_.height()));
+        return std::max(0.0, source_.parameterization.solid_angle_density(chart, (x + right) / size_.width,
+                                                                          (y + down) / size_.height));
       };
       for (int k = 0; k < kPoints * kPoints; ++k) {
         texel.density +=
@@ -244,25 +253,8 @@ class Reference {
     const auto texel = [&](int right, int down) {
       return static_cast<double>(chart.at(column + right, row + down)[channel]);
     };
-    const auto odd = [](const auto& value) {
-      double sum = 0;
-      for (int j = 1; j <= kReconstructionReach; ++j)
-        sum += static_cast<double>(kOddTaps[j - 1]) * (value(j) - value(-j));
-      return sum;
-    };
-    const auto even = [](const auto& value) {
-      double sum = 0;
-      for (int j = 1; j <= kReconstructionReach; ++j)
-        sum += static_cast<double>(kEvenTaps[j - 1]) * (value(j) + value(-j) - 2 * value(0));
-      return sum;
-    };
     const double m = texel(0, 0);
-    std::array<double, 6> a{m,
-                            odd([&](int j) { return texel(j, 0); }),
-                            odd([&](int j) { return texel(0, j); }),
-                            even([&](int j) { return texel(j, 0); }),
-                            odd([&](int k) { return odd([&](int j) { return texel(j, k); }); }),
-                            even([&](int j) { return texel(0, j); })};
+    std::array<double, 6> a = free_quadratic(chart, column, row, channel);
     if (options_.allow_ringing) return a;
     double lowest = m, highest = m, low = m, high = m;
     for (int j = -1; j <= 1; ++j) {
@@ -290,6 +282,9 @@ class Reference {
   const ResampleOptions& options_;
   const Matrix3 to_source_;
   const bool reconstructed_;
+  const int parts_;  ///< of a side of each of the source's texels
+  const ChartSize size_;
+  const RefinementReference refinement_;
   const bool by_row_;  ///< texels of a row of the source have one solid angle
   const int samples_;
   Values fill_;

@@ -124,6 +124,23 @@ TEST(ResampleReferenceTest, ReconstructionsAreExactToFortyDecibels) {
   }
 }
 
+/// The same where it is magnified, and each texel of the source is divided into parts.
+TEST(ResampleReferenceTest, PartsOfTexelsAreExactToFortyDecibels) {
+  const AreaCase each_case[] = {{"latlong", 16, "cube", 26},
+                                {"latlong", 12, "cube", 40},
+                                {"cube", 5, "latlong", 96},
+                                {"octahedral", 10, "cube", 44}};
+  for (const AreaCase& each : each_case) {
+    const Map source = rendered(each.source, each.source_size, checker(3));
+    Map fast = make_map(each.target, each.target_size), exact = make_map(each.target, each.target_size);
+    ResampleOptions options = with(Filter::automatic);
+    options.rotation = rotation_from_yaw_pitch_roll(40, 25, 15);
+    resample(source, fast, options);
+    resample_reference(source, exact, options, 6);
+    EXPECT_GT(psnr(fast, exact), 40) << each.source << " to " << each.target;
+  }
+}
+
 /// The reference itself: more points change it little, and its mean over one texel that is the world is the
 /// world's.
 TEST(ResampleReferenceTest, ConvergesToTheMeanOverTheSphere) {
