@@ -201,7 +201,7 @@ refuses 2 'no.ktx2: charts of 8x8 have 4 levels, not 6$' convert chain.ktx2 no.k
 refuses 2 'no.exr: cube:vstrip of charts of 33x33 can be halved to 1 levels only, not 6' convert chain.ktx2 no.exr --size 33
 must convert chain.ktx2 odd.ktx2 --size 33
 refuses 2 'no.exr: an EXR of several parts holds no levels' convert chain.ktx2 no.exr --to cube:layers
-refuses 2 'no-%s.exr: 6 levels go into one file' convert chain.ktx2 no-%s.exr --to cube:faces
+refuses 2 'no-%s.exr: 6 levels go into one file' convert chain.ktx2 no-%s.exr --to cube:faces -q
 refuses 2 'no.ktx2: levels take no safety border$' convert chain.ktx2 no.ktx2 --border 2
 
 # A plain map in a texture: cubes are cube textures, whatever layout the input had; a picture when it's asked for.
