@@ -22,8 +22,8 @@ printf '| ball | rel. RMSE | noise of Cycles | noise of Welkin | the rest | rati
 
 # difference A B: relative RMSE, and the ratio of the means.
 difference() {
-  "$build/welkin" diff "$1" "$2" --from perspective,fov=29 --json 2>diff.log |
-    awk -F'[:,]' '/"all"/ { all = 1 } all && /"relative_rmse"/ { e = $2 } all && /"mean_a"/ { a = $2 } all && /"mean_b"/ { print e, $2 / a; exit }'
+  "$build/welkin" diff "$1" "$2" --from perspective,fov=29 --json >diff.json 2>diff.log
+  awk -F'[:,]' '/"all"/ { all = 1 } all && /"relative_rmse"/ { e = $2 } all && /"mean_a"/ { a = $2 } all && /"mean_b"/ { print e, $2 / a; exit }' diff.json
 }
 
 # compare NAME CYCLES_MATERIAL WELKIN_MATERIAL
