@@ -9,6 +9,7 @@
 #include "welkin/render/backdrop.h"
 #include "welkin/render/picture_tiles.h"
 #include "welkin/render/shading/shading_look_ups.h"
+#include "welkin/render/shading/sheen.h"
 #include "welkin/render/shading/smooth_layers.h"
 
 namespace welkin::scene {
@@ -128,8 +129,7 @@ void Tile::meet(const Way& way, const Hit& hit) {
   if (way.depth == 0) alphas_[way.pixel] += weight[0];
   if (alpha == 0) return;
   // Cloth and brushed metal are no mirrors, however smooth they are.
-  const auto& sheen = at.material.sheen_color;
-  const bool mirrors = at.material.anisotropy == 0 && std::max({sheen[0], sheen[1], sheen[2]}) == 0;
+  const bool mirrors = at.material.anisotropy == 0 && !is_cloth(at.material);
   if (way.depth >= options_.depth || at.material.roughness > options_.smooth || !mirrors) {
     rough_.add(at, weight, way.pixel);
     return;

@@ -13,8 +13,6 @@ namespace welkin::scene {
 namespace {
 
 constexpr double kCoatF0 = 0.04;
-/// Of the viewer: flatter ones are lifted to this.
-constexpr double kLeastCosine = 1e-4;
 
 double squared(double x) {
   return x * x;

@@ -9,6 +9,9 @@
 /// has the isotropic terms that they agree with.
 namespace welkin::scene {
 
+/// Flatter directions of a viewer are lifted to this n·v.
+inline constexpr double kLeastCosine = 1e-4;
+
 /// Facets of slopes' widths `x` and `y` (α of each axis), above 0.
 struct GgxFacets {
   double x;

@@ -5,9 +5,11 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numeric>
 
 #include "welkin/brdf/compensation.h"
 #include "welkin/brdf/microfacet.h"
+#include "welkin/render/cosine_table.h"
 #include "welkin/render/path/ggx_lobe.h"
 #include "welkin/render/path/refraction.h"
 
@@ -15,22 +17,6 @@ namespace welkin::scene {
 namespace {
 
 constexpr int kRoughnesses = 25, kCosines = 24, kDraws = 1024;
-/// Flatter directions count as this one.
-constexpr double kLeastCosine = 1e-4;
-
-/// Where a table is read: between `index` and the next, `weight` the share of the next.
-struct Place {
-  std::size_t index;
-  double weight;
-};
-Place place_of(double x, int steps) {
-  const double scaled = std::clamp(x, 0.0, 1.0) * (steps - 1);
-  const auto index = static_cast<std::size_t>(std::min(static_cast<int>(scaled), steps - 2));
-  return {index, scaled - static_cast<double>(index)};
-}
-double between(double a, double b, double weight) {
-  return a + weight * (b - a);
-}
 
 /// The bits of k mirrored behind the point (van der Corput).
 double mirrored_bits(unsigned k) {
@@ -58,22 +44,10 @@ double seen_once(double cosine, double alpha, double eta) {
   return sum / kDraws;
 }
 
-/// 2 ∫ L μ dμ where L is linear between values at equal steps of √μ: 4 ∫ L x³ dx, step by step.
-double hemisphere_mean(const double* losses) {
-  double sum = 0;
-  for (int i = 0; i + 1 < kCosines; ++i) {
-    const double a = i / (kCosines - 1.0), b = (i + 1) / (kCosines - 1.0), step = b - a;
-    const double fourth = (std::pow(b, 4) - std::pow(a, 4)) / 4,
-                 fifth = (std::pow(b, 5) - std::pow(a, 5)) / 5;
-    const double slope = (losses[i + 1] - losses[i]) / step;
-    sum += (losses[i] - slope * a) * fourth + slope * fifth;
-  }
-  return 4 * sum;
-}
-
 }  // namespace
 
 GlassLoss::GlassLoss(double eta) : losses_(std::size_t{kRoughnesses} * kCosines), averages_(kRoughnesses) {
+  const std::vector<double> weights = hemisphere_weights(kCosines);
   for (std::size_t row = 1; row < averages_.size(); ++row) {  // smooth glass loses nothing
     const double roughness = static_cast<double>(row) / (kRoughnesses - 1);
     double* losses = losses_.data() + kCosines * row;
@@ -81,22 +55,22 @@ GlassLoss::GlassLoss(double eta) : losses_(std::size_t{kRoughnesses} * kCosines)
       const double root = i / (kCosines - 1.0), cosine = std::max(root * root, kLeastCosine);
       losses[i] = std::clamp(1 - seen_once(cosine, roughness * roughness, eta), 0.0, 1.0);
     }
-    averages_[row] = hemisphere_mean(losses);
+    averages_[row] = std::inner_product(weights.begin(), weights.end(), losses, 0.0);
   }
 }
 
 double GlassLoss::at(double cosine, double roughness) const {
-  const Place row = place_of(roughness, kRoughnesses);
-  const Place column = place_of(std::sqrt(std::clamp(cosine, kLeastCosine, 1.0)), kCosines);
-  const double* low = losses_.data() + row.index * kCosines + column.index;
+  const auto [j, down] = between(roughness, kRoughnesses);
+  const auto [i, right] = between(std::sqrt(std::clamp(cosine, kLeastCosine, 1.0)), kCosines);
+  const double* low = losses_.data() + j * kCosines + i;
   const double* high = low + kCosines;
-  return between(between(low[0], low[1], column.weight), between(high[0], high[1], column.weight),
-                 row.weight);
+  return std::lerp(std::lerp(low[0], low[1], right), std::lerp(high[0], high[1], right), down);
 }
 
 double GlassLoss::average(double roughness) const {
-  const Place row = place_of(roughness, kRoughnesses);
-  return between(averages_[row.index], averages_[row.index + 1], row.weight);
+  const auto [j, down] = between(roughness, kRoughnesses);
+  const double* row = averages_.data() + j;
+  return std::lerp(row[0], row[1], down);
 }
 
 GlassEnergy::GlassEnergy(double ior)
@@ -114,12 +88,18 @@ double GlassEnergy::through(bool from_behind, double roughness) const {
 }
 
 const GlassEnergy& glass_energy(double ior) {
+  // Paths ask at each surface of glass, nearly always for the index that they asked for before.
+  thread_local double last_ior = 0;
+  thread_local const GlassEnergy* last = nullptr;
+  if (last != nullptr && last_ior == ior) return *last;
   static std::mutex mutex;
   static std::map<double, std::unique_ptr<const GlassEnergy>> made;
   const std::lock_guard lock(mutex);
   auto& energy = made[ior];
   if (!energy) energy = std::make_unique<const GlassEnergy>(ior);
-  return *energy;
+  last_ior = ior;
+  last = energy.get();
+  return *last;
 }
 
 }  // namespace welkin::scene

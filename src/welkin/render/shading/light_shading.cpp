@@ -37,17 +37,10 @@ Arriving arriving(const PointLight& light, const Vec3d& position) {
   return {towards, distance, strength};
 }
 
-/// BRDF times cosine: what paths scatter.
-Rgb reflected_part(const Surface& at, const Vec3d& towards) {
-  // Neither the shaded nor the true surface is lit from behind.
-  const double cosine = dot(at.normal, towards);
-  if (!(cosine > 0) || !(dot(at.flat_normal, towards) > 0)) return {};
-  Surface lit = at;
-  lit.material.roughness = std::max(kLeastRoughness, at.material.roughness);
-  const Radiance value = Bsdf(lit).evaluate(towards);
-  Rgb part{};
-  for (std::size_t c = 0; c < 3; ++c) part[c] = static_cast<float>(cosine * value[c]);
-  return part;
+/// A surface as paths scatter light at it.
+Bsdf lit_surface(Surface at) {
+  at.material.roughness = std::max(kLeastRoughness, at.material.roughness);
+  return Bsdf(at);
 }
 
 class LightShading : public Shading {
@@ -66,15 +59,21 @@ class LightShading : public Shading {
   void shade(std::span<const Surface> surfaces, std::span<Rgb> radiance) const override {
     under_->shade(surfaces, radiance);
     const std::vector<PointLight>& lights = scene_.scene().lights;
-    for (std::size_t k = 0; k < lights.size(); ++k) {
-      for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        const Arriving light = arriving(lights[k], surfaces[i].position);
-        if (!(light.strength > 0)) continue;
-        const Rgb part = reflected_part(surfaces[i], light.towards);
-        if (part == Rgb{}) continue;
-        const double seen = light.strength * visibility(k, surfaces[i], light);
+    if (lights.empty()) return;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const Surface& at = surfaces[i];
+      const Bsdf bsdf = lit_surface(at);
+      for (std::size_t k = 0; k < lights.size(); ++k) {
+        const Arriving light = arriving(lights[k], at.position);
+        // Neither the shaded nor the true surface is lit from behind.
+        const double cosine = dot(at.normal, light.towards);
+        if (!(light.strength > 0) || !(cosine > 0) || !(dot(at.flat_normal, light.towards) > 0)) continue;
+        const Radiance value = bsdf.evaluate(light.towards);
+        if (value == Radiance{}) continue;
+        const double seen = light.strength * visibility(k, at, light);
         for (std::size_t c = 0; c < 3; ++c)
-          radiance[i][c] += static_cast<float>(seen) * part[c] * lights[k].intensity[c];
+          radiance[i][c] +=
+              static_cast<float>(seen) * static_cast<float>(cosine * value[c]) * lights[k].intensity[c];
       }
     }
   }

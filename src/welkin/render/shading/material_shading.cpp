@@ -44,11 +44,6 @@ class MaterialShading : public Shading {
   ShadingOptions options_;
 };
 
-bool is_cloth(const Surface& at) {
-  const auto& color = at.material.sheen_color;
-  return std::max({color[0], color[1], color[2]}) > 0;
-}
-
 const Sampler& rough_of(const World& world) {
   return world.rough();
 }
@@ -82,7 +77,8 @@ void MaterialShading::shade(std::span<const Surface> surfaces, std::span<Rgb> ra
   look_up_filtered(worlds_, surfaces, diffuse_light(), layers.diffuse);
   if (any([](const Surface& at) { return at.material.anisotropy > 0; }))
     look_up_anisotropic(worlds_, surfaces, layers.specular);
-  if (any(is_cloth)) look_up_filtered(worlds_, surfaces, sheen_light(), layers.sheen);
+  if (any([](const Surface& at) { return is_cloth(at.material); }))
+    look_up_filtered(worlds_, surfaces, sheen_light(), layers.sheen);
   if (any([](const Surface& at) { return at.material.clearcoat > 0; }))
     look_up_lobes(
         surfaces, [](const Surface& at) { return at.material.clearcoat_roughness; }, reflected, layers.coat);

@@ -8,6 +8,7 @@
 #include "welkin/base/parallel.h"
 #include "welkin/brdf/compensation.h"
 #include "welkin/brdf/microfacet.h"
+#include "welkin/render/cosine_table.h"
 
 namespace welkin::scene {
 namespace {
@@ -18,17 +19,6 @@ constexpr double kLeastCosine = 1e-4;
 
 /// Azimuths of the midpoint rule over 0 … π.
 constexpr int kAzimuths = 96;
-
-/// A texel before a place of 0 … 1, and how far the place is from it to the next.
-struct Between {
-  int first;
-  double part;
-};
-Between between(double place, int texels) {
-  const double x = std::clamp(place, 0.0, 1.0) * (texels - 1);
-  const int first = std::min(static_cast<int>(x), texels - 2);
-  return {first, x - first};
-}
 
 SheenSum mixed(const SheenSum& a, const SheenSum& b, double part) {
   const auto mix = [&](double x, double y) { return x + part * (y - x); };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -17,6 +18,12 @@ namespace welkin::scene {
 
 /// Smoother cloth looks as this: its sheen is a line along outlines.
 inline constexpr double kLeastSheenRoughness = 0.07;
+
+/// Whether a surface has a sheen.
+inline bool is_cloth(const MaterialPoint& at) {
+  const auto& color = at.sheen_color;
+  return std::max({color[0], color[1], color[2]}) > 0;
+}
 
 /// Integrals of f of white cloth over the light's direction.
 struct SheenSum {
