@@ -151,57 +151,54 @@ void Assemble::run() const {
 
 }  // namespace
 
-void add_assemble(CLI::App& app) {
+void add_assemble(Command app) {
   auto assemble = std::make_shared<Assemble>();
-  CLI::App* command = app.add_subcommand("assemble", "Make a world of pictures that each show a part of it");
+  Command command = app.add_command("assemble", "Make a world of pictures that each show a part of it");
   command
-      ->add_option("OUT", assemble->out,
-                   "Map to write; its extension names the format; - is standard output, see --format")
-      ->required();
-  command->add_option(
-      "--panel", assemble->panels,
-      "A picture: FILE,fov=DEGREES[,KEY=VALUE]…, its horizontal field of view; yaw, pitch and "
-      "roll say where it looks, feather over how many degrees its edges fade, layer which "
-      "pictures it lies over, exposure by how many stops it is brightened; "
-      "as=fisheye-equidistant,fov=180 that it isn't flat");
-  command->add_option(
-      "--ball", assemble->balls,
-      "A photograph of a mirror ball: FILE[,KEY=VALUE]…; yaw, pitch and roll say where the "
-      "camera looked, distance how many ball radii it was from the ball's centre (or fov, the "
-      "photograph's horizontal field of view), x, y and radius where the ball is, in texels "
-      "(without them it touches the edges), camera the half angle, degrees, that the camera "
-      "hides; also rim, feather, layer, exposure");
-  command->add_option("--list", assemble->list,
-                      "JSON file that lists pictures: {\"panels\": [{\"file\": …, \"fov\": …, \"yaw\": …}, "
-                      "…], \"balls\": […]}");
-  command->add_flag(
-      "--match", assemble->match,
-      "Brighten or darken pictures so that they agree where they overlap; the first stays as it "
-      "is");
-  command->add_option("--background", assemble->background,
-                      "What is behind: R,G,B, or a map: FILE[,KEY=VALUE]… Default: black");
+      .add_option("OUT", assemble->out,
+                  "Map to write; its extension names the format; - is standard output, see --format")
+      .required();
+  command.add_option("--panel", assemble->panels,
+                     "A picture: FILE,fov=DEGREES[,KEY=VALUE]…, its horizontal field of view; yaw, pitch and "
+                     "roll say where it looks, feather over how many degrees its edges fade, layer which "
+                     "pictures it lies over, exposure by how many stops it is brightened; "
+                     "as=fisheye-equidistant,fov=180 that it isn't flat");
+  command.add_option("--ball", assemble->balls,
+                     "A photograph of a mirror ball: FILE[,KEY=VALUE]…; yaw, pitch and roll say where the "
+                     "camera looked, distance how many ball radii it was from the ball's centre (or fov, the "
+                     "photograph's horizontal field of view), x, y and radius where the ball is, in texels "
+                     "(without them it touches the edges), camera the half angle, degrees, that the camera "
+                     "hides; also rim, feather, layer, exposure");
+  command.add_option("--list", assemble->list,
+                     "JSON file that lists pictures: {\"panels\": [{\"file\": …, \"fov\": …, \"yaw\": …}, "
+                     "…], \"balls\": […]}");
+  command.add_flag("--match", assemble->match,
+                   "Brighten or darken pictures so that they agree where they overlap; the first stays as it "
+                   "is");
+  command.add_option("--background", assemble->background,
+                     "What is behind: R,G,B, or a map: FILE[,KEY=VALUE]… Default: black");
   command
-      ->add_option(
+      .add_option(
           "--ground", assemble->ground,
           "What is made of a sky below its horizon: mirror (the sky upside down), stretch (the row of "
           "texels on the horizon). Default: the background")
-      ->check(CLI::IsMember({"mirror", "stretch"}));
-  command->add_flag("--alpha", assemble->alpha, "Write A, how much is covered");
+      .one_of({"mirror", "stretch"});
+  command.add_flag("--alpha", assemble->alpha, "Write A, how much is covered");
   command
-      ->add_option(
+      .add_option(
           "--mix", assemble->mix,
           "Which of pictures that overlap counts more: finer (the one with more texels per degree), even")
-      ->check(CLI::IsMember({"finer", "even"}))
-      ->capture_default_str();
-  command->add_option("--to", assemble->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")
-      ->capture_default_str();
-  command->add_option("--size", assemble->size,
-                      "Size of a chart in texels: N across, or WxH. Default: as fine as the finest picture");
-  command->add_option("--convention,--to-convention", assemble->convention,
-                      "World of the output: three.js, blender…");
-  assemble->write.add(*command);
-  add_format(*command, assemble->format);
-  command->callback([assemble] {
+      .one_of({"finer", "even"})
+      .show_default();
+  command.add_option("--to", assemble->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")
+      .show_default();
+  command.add_option("--size", assemble->size,
+                     "Size of a chart in texels: N across, or WxH. Default: as fine as the finest picture");
+  command.add_option("--convention,--to-convention", assemble->convention,
+                     "World of the output: three.js, blender…");
+  assemble->write.add(command);
+  add_format(command, assemble->format);
+  command.callback([assemble] {
     assemble->out = output_path(assemble->out, assemble->format);
     assemble->run();
   });

@@ -34,7 +34,7 @@ struct Bake {
   BakeLevels made;
   BakeViews views;
   BakeSet set;
-  const CLI::Option* tolerance_option = nullptr;
+  Option tolerance_option;
   ReadFlags read;
   WriteFlags write;
   double exposure = 0;
@@ -157,7 +157,7 @@ void Bake::run() {
   WriteMapOptions write_options = parse_write();
   write_options.convention = convention;
   // What a stack is made with by default: see ViewBakeOptions.
-  if (views.makes_stack() && tolerance_option->count() == 0) tolerance = "0.5%";
+  if (views.makes_stack() && !tolerance_option.given()) tolerance = "0.5%";
   const PrefilterOptions prefilter = parse_options();
   Matrix3 turn;
   if (!rotation.empty()) turn = parse_rotation("--rotate", rotation);
@@ -240,81 +240,81 @@ void Bake::run() {
 
 }  // namespace
 
-void add_bake(CLI::App& app) {
+void add_bake(Command app) {
   auto bake = std::make_shared<Bake>();
-  CLI::App* command =
-      app.add_subcommand("bake", "Filter a map with a lobe, for lighting: a chain of levels, or one map");
+  Command command =
+      app.add_command("bake", "Filter a map with a lobe, for lighting: a chain of levels, or one map");
   command
-      ->add_option(
+      .add_option(
           "IN", bake->in,
           "Map to read; %s in the name stands for a face's name (px, nx…), %04d or #### for the number of "
           "a frame; - is standard input")
-      ->required();
+      .required();
   command
-      ->add_option(
+      .add_option(
           "OUT", bake->out,
           "File to write; its extension names the format: ktx2 or exr for a chain, any for one map; - is "
           "standard output, see --format; of frames, a name with %04d or #### too")
-      ->required();
-  bake->made.add(*command);
-  bake->views.add(*command);
-  bake->set.add(*command);
+      .required();
+  bake->made.add(command);
+  bake->views.add(command);
+  bake->set.add(command);
   bake->tolerance_option =
       command
-          ->add_option("--tolerance", bake->tolerance,
-                       "Relative RMS error to aim for at every level, 0.000001 to 0.1; or in percent, 0.1%")
-          ->capture_default_str();
+          .add_option("--tolerance", bake->tolerance,
+                      "Relative RMS error to aim for at every level, 0.000001 to 0.1; or in percent, 0.1%")
+          .show_default();
   command
-      ->add_flag("--verify{64}", bake->verify,
-                 "Compare N random texels of each level, and the brightest, with brute force, and measure "
-                 "energy; --verify alone: 64")
-      ->type_name("[=N]")
-      ->check(CLI::Range(1, 1000000));
+      .add_flag("--verify{64}", bake->verify,
+                "Compare N random texels of each level, and the brightest, with brute force, and measure "
+                "energy; --verify alone: 64")
+      .placeholder("[=N]")
+      .within(1, 1000000);
   std::vector<std::string> formats = texel_formats();
   for (const std::string& extension : io::writable_extensions()) formats.push_back(extension);
   command
-      ->add_option("--format", bake->format,
-                   "Stored texels: rgba32f, rgba16f, rgb9e5, r11g11b10, bc6h, uastc-hdr; or of standard "
-                   "output, where OUT is -, "
-                   "the format: ktx2, exr…, and --type says what is stored")
-      ->check(CLI::IsMember(formats))
-      ->option_text("TEXT");
+      .add_option("--format", bake->format,
+                  "Stored texels: rgba32f, rgba16f, rgb9e5, r11g11b10, bc6h, uastc-hdr; or of standard "
+                  "output, where OUT is -, "
+                  "the format: ktx2, exr…, and --type says what is stored")
+      .one_of(formats)
+      .help_value("TEXT");
   command
-      ->add_option("--normalisation", bake->normalisation,
-                   "average: a constant map is unchanged; integral: times the lobe's integral, of lambert "
-                   "the irradiance")
-      ->check(CLI::IsMember({"average", "integral"}))
-      ->capture_default_str();
+      .add_option("--normalisation", bake->normalisation,
+                  "average: a constant map is unchanged; integral: times the lobe's integral, of lambert "
+                  "the irradiance")
+      .one_of({"average", "integral"})
+      .show_default();
   command
-      ->add_option("--filter", bake->filter,
-                   "How a level of roughness 0 is resampled: auto (antialiased, keeps the light), nearest, "
-                   "bilinear, bicubic, lanczos")
-      ->capture_default_str();
-  command->add_option(
+      .add_option("--filter", bake->filter,
+                  "How a level of roughness 0 is resampled: auto (antialiased, keeps the light), nearest, "
+                  "bilinear, bicubic, lanczos")
+      .show_default();
+  command.add_option(
       "--rotate", bake->rotation,
       "Rotate the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
-  command->add_option("--convention,--to-convention", bake->convention,
-                      "World of the output: three.js, blender… (`welkin list conventions`)");
+  command.add_option("--convention,--to-convention", bake->convention,
+                     "World of the output: three.js, blender… (`welkin list conventions`)");
   command
-      ->add_option(
+      .add_option(
           "--atlas", bake->atlas,
           "playcanvas: that engine's picture of 512×512 with all levels and the diffuse light, a PNG in "
           "--encoding rgbp")
-      ->check(CLI::IsMember({"playcanvas"}));
-  command->add_flag("--extract-sun", bake->extract_sun,
-                    "Take the strongest light out first, and tell it, to be a light of its own that casts "
-                    "shadows; see `lights`");
-  command->add_option("--exposure", bake->exposure, "Brighten by this many stops")->check(finite_number());
-  bake->repair.add(*command);
-  bake->frames.add(*command);
-  command->add_flag("--json", bake->json, "Machine-readable, on standard output");
-  bake->read.add(*command);
-  bake->read.add_level(*command, "Level of the input to take. Default: the finest");
-  bake->write.add(*command);
-  command->callback([bake, command] {
-    bake->request = request_of(*command);
-    if (bake->set.asked(bake->out, *command)) {
-      bake->request = command_line(*command);
+      .one_of({"playcanvas"});
+  command.add_flag("--extract-sun", bake->extract_sun,
+                   "Take the strongest light out first, and tell it, to be a light of its own that casts "
+                   "shadows; see `lights`");
+  command.add_option("--exposure", bake->exposure, "Brighten by this many stops").finite();
+  bake->repair.add(command);
+  bake->frames.add(command);
+  command.add_flag("--json", bake->json, "Machine-readable, on standard output");
+  bake->read.add(command);
+  bake->read.add_level(command, "Level of the input to take. Default: the finest");
+  bake->write.add(command);
+  command.callback([bake, command] {
+    bake->request = request_of(command);
+    if (bake->set.asked(bake->out, command)) {
+      bake->request = command_line(command);
       bake->in = input_path(bake->in);
       return bake->run_set();
     }

@@ -89,7 +89,7 @@ Error with_remedy(const Error& error, const FramesRequest& request) {
 
 }  // namespace
 
-void FrameFlags::add(CLI::App& command) {
+void FrameFlags::add(Command command) {
   command.add_option(
       "--frames", frames,
       "Of numbered frames, those from A to B: A-B, or one. Default: from the first to the last "
@@ -99,14 +99,14 @@ void FrameFlags::add(CLI::App& command) {
           "--every", every,
           "Of numbered frames, bake the first, each N further, and the last; the others are interpolated, "
           "and need no input")
-      ->type_name("N")
-      ->check(CLI::Range(1, FrameNames::kLargest));
+      .placeholder("N")
+      .within(1, FrameNames::kLargest);
   command.add_flag("--keys-only", keys_only, "With --every: write the frames that are baked, and no other");
   command
       .add_option("--held-out", held_out,
                   "With --every: bake up to N of the interpolated frames too, and tell the error. Default: 4")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1000000));
+      .placeholder("N")
+      .within(0, 1000000);
   command.add_flag(
       "--resume", resume,
       "Leave frames alone whose files are complete, were made by the same request, and are newer "
@@ -135,14 +135,14 @@ bool names_frames(const std::string& in, const std::string& out) {
   return false;
 }
 
-std::string request_of(const CLI::App& command) {
+std::string request_of(const Command& command) {
   const std::set<std::string> idle{"IN",          "OUT",        "--frames", "--every",
                                    "--keys-only", "--held-out", "--resume", "--json"};
   std::string text;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->count() == 0 || idle.count(option->get_name()) > 0) continue;
-    text += option->get_name();
-    for (const std::string& value : option->results()) text += "=" + value;
+  for (const Option& option : command.options()) {
+    if (!option.given() || idle.count(option.name()) > 0) continue;
+    text += option.name();
+    for (const std::string& value : option.values()) text += "=" + value;
     text += "\n";
   }
   return text;

@@ -14,7 +14,7 @@ struct FrameFlags {
   std::optional<int> every, held_out;
   bool keys_only = false, resume = false;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Throws UsageError where one of them was given, for one map.
   void check_unused() const;
 };
@@ -23,7 +23,7 @@ struct FrameFlags {
 bool names_frames(const std::string& in, const std::string& out);
 
 /// The options that were given, but those that change no frame, as text: BakeFramesOptions::request.
-std::string request_of(const CLI::App& command);
+std::string request_of(const Command& command);
 
 /// The rest of what was asked for, parsed.
 struct FramesRequest {

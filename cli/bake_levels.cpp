@@ -4,14 +4,14 @@
 
 namespace welkin::cli {
 
-void BakeLevels::add(CLI::App& command) {
+void BakeLevels::add(Command command) {
   command
       .add_option("--lobe", lobe_spec,
                   "Lobe to filter with (`welkin list lobes`): NAME makes a chain where the lobe has a "
                   "roughness, NAME,PARAMETER=VALUE one map; table,file=PATH")
-      ->capture_default_str();
+      .show_default();
   command.add_option("--to", to, "Parameterization of the output: NAME[:LAYOUT][,PARAMETER=VALUE]")
-      ->capture_default_str();
+      .show_default();
   command.add_option(
       "--size", size,
       "Size of a chart (a face) of level 0 in texels: N across, or WxH. Default: faces of 256, of 64 for one "
@@ -20,7 +20,7 @@ void BakeLevels::add(CLI::App& command) {
       .add_option("--levels", count,
                   "Levels of the chain, each half as large as the one before. Default: as many as the list "
                   "of --roughness, or the size, has")
-      ->check(CLI::Range(1, 21));
+      .within(1, 21);
   command.add_option("--roughness", roughness,
                      "Roughness of each level: a curve (`welkin list curves`) or a list 0,0.1,0.5. Default: "
                      "linear");
@@ -28,12 +28,12 @@ void BakeLevels::add(CLI::App& command) {
       .add_option("--level0", level0,
                   "filtered: for the curve's roughness, of which 0 is the source resampled; source: "
                   "resampled, whatever the curve says")
-      ->check(CLI::IsMember({"filtered", "source"}))
-      ->capture_default_str();
+      .one_of({"filtered", "source"})
+      .show_default();
   command
       .add_option("--method", method,
                   "exact, or paraboloid-convolution: an approximation of 2000, into --to paraboloid")
-      ->capture_default_str();
+      .show_default();
 }
 
 void BakeLevels::check_one_lobe(const lobe::AnyLobe& lobe) const {

@@ -14,7 +14,7 @@ struct BakeLevels {
   std::string lobe_spec = "ggx", roughness, to = "cube", size, level0 = "filtered", method = "exact";
   std::optional<int> count;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Checks all of it, as far as it needs no input, and the output path. Throws as
   /// check_output does.
   void parse(const std::string& out, const WriteFlags& write);

@@ -77,51 +77,49 @@ std::string quoted(const std::string& word) {
 
 }  // namespace
 
-std::string command_line(const CLI::App& command) {
-  std::string text = "welkin " + command.get_name();
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->count() == 0) continue;
-    const bool positional = option->get_positional();
-    const bool flag = option->get_items_expected_max() == 0;
-    for (const std::string& value : option->results()) {
-      if (positional) {
+std::string command_line(const Command& command) {
+  std::string text = "welkin " + command.name();
+  for (const Option& option : command.options()) {
+    if (!option.given()) continue;
+    for (const std::string& value : option.values()) {
+      if (option.positional()) {
         text += " " + quoted(value);
-      } else if (flag) {
-        text += " " + option->get_name() + (value == "true" ? "" : "=" + value);
+      } else if (option.flag()) {
+        text += " " + option.name() + (value == "true" ? "" : "=" + value);
       } else {
-        text += " " + option->get_name() + " " + quoted(value);
+        text += " " + option.name() + " " + quoted(value);
       }
     }
   }
   return text;
 }
 
-void BakeSet::add(CLI::App& command) {
+void BakeSet::add(Command command) {
   command.add_option("--for", engine,
                      "All files that an engine lights a scene with, into the folder OUT: three.js, filament… "
                      "(`welkin list engines`). A folder alone, OUT/: the general set");
   command
       .add_option("--max-bytes", most_bytes,
                   "Of a set: halve the faces of the specular chain until its file has at most so many bytes")
-      ->check(CLI::PositiveNumber);
+      .positive();
 }
 
 Engine BakeSet::chosen() const {
   return parse_option("--for", [&] { return engine_from_name(engine.empty() ? "general" : engine); });
 }
 
-bool BakeSet::asked(const std::string& out, const CLI::App& command) const {
+bool BakeSet::asked(const std::string& out, const Command& command) const {
   std::error_code ignored;
   const bool folder = !out.empty() && (out.back() == '/' || std::filesystem::is_directory(out, ignored));
   if (engine.empty() && !folder) {
     for (const char* option : kOnlySets) {
-      if (command.get_option(option)->count() > 0)
+      if (command.option(option).given())
         throw UsageError(fmt::format("{}: is for a set; name a folder, as {}/", option, printable(out)));
     }
     return false;
   }
   for (const char* option : kUnused) {
-    if (command.get_option(option)->count() > 0)
+    if (command.option(option).given())
       throw UsageError(
           fmt::format("{}: a set is made as its engine loads it; name one file for other maps", option));
   }

@@ -13,17 +13,17 @@
 namespace welkin::cli {
 
 /// `welkin bake …` as it was typed, but for quotes.
-std::string command_line(const CLI::App& command);
+std::string command_line(const Command& command);
 
 /// `bake IN FOLDER/`: all files of a set, its manifest and its page.
 struct BakeSet {
   std::string engine;
   std::optional<std::uint64_t> most_bytes;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Whether a set is asked for: an engine, or a path that is a folder. Throws UsageError for options that
   /// only a set has, of a single file, and for options of `command` that a set has no use for.
-  bool asked(const std::string& out, const CLI::App& command) const;
+  bool asked(const std::string& out, const Command& command) const;
   /// The options that `made` and `write` stand for, checked against the engine and the folder. Throws
   /// UsageError.
   SetOptions parse(const std::string& out, const BakeLevels& made, const std::string& type,

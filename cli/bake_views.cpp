@@ -37,26 +37,26 @@ std::size_t nearest(const std::vector<double>& cosines, double cosine) {
 
 }  // namespace
 
-void BakeViews::add(CLI::App& command) {
+void BakeViews::add(Command command) {
   command.add_option("--brdf", spec,
                      "Filter with a BRDF's lobe as it is seen from several angles: ggx, ward (a chain over "
                      "roughness), NAME,roughness=VALUE (one level), table,file=PATH, merl,file=PATH");
   command
       .add_option("--views", views, "With --brdf: how many angles of view, each a layer of OUT; default 16")
-      ->check(CLI::Range(1, 256));
+      .within(1, 256);
   command
       .add_option(
           "--axis", axis,
           "With --brdf: lobes are averaged about the axis that suits them best (fitted), or about the "
           "reflected direction")
-      ->check(CLI::IsMember({"fitted", "reflected"}))
-      ->capture_default_str();
+      .one_of({"fitted", "reflected"})
+      .show_default();
   command
       .add_option(
           "--lobes", lobes,
           "With --brdf: no layers, but one chain of --lobe and a table of which of its texels to add, "
           "so many for each angle of view and roughness")
-      ->check(CLI::Range(1, 16));
+      .within(1, 16);
 }
 
 bool BakeViews::asked() const {

@@ -15,7 +15,7 @@ struct BakeViews {
   std::string spec, axis = "fitted";
   std::optional<int> views, lobes;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Whether a BRDF is asked for. Throws UsageError for options that need one.
   bool asked() const;
   /// Whether angles of view become layers.

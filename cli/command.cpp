@@ -38,24 +38,7 @@ io::Colour parse_colour(std::string_view option, const std::string& text) {
   throw UsageError(std::string(option) + ": " + unknown_name("transfer function", text, names));
 }
 
-/// A finite number that is all of `text`.
-std::optional<double> finite(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 }  // namespace
-
-CLI::Validator finite_number(double minimum) {
-  const auto check = [minimum](std::string& text) {
-    const std::optional<double> value = finite(text);
-    if (!value) return "'" + text + "' is not a number";
-    return *value < minimum ? fmt::format("{} is below {}", text, minimum) : std::string();
-  };
-  return CLI::Validator(check, "");
-}
 
 std::string printable(std::string text, std::size_t longest) {
   for (char& c : text) {
@@ -68,7 +51,7 @@ std::string printable(std::string text, std::size_t longest) {
 std::vector<double> parse_numbers(std::string_view option, const std::string& text) {
   std::vector<double> numbers;
   for (const std::string& part : split_list(text)) {
-    const std::optional<double> value = finite(part);
+    const std::optional<double> value = parse_number(part);
     if (!value) throw UsageError(fmt::format("{}: '{}' is not a number", option, part));
     numbers.push_back(*value);
   }
@@ -112,7 +95,7 @@ Matrix3 parse_rotation(std::string_view option, const std::string& text) {
       fmt::format("{}: give yaw,pitch,roll in degrees, a quaternion w,x,y,z or nine matrix entries", option));
 }
 
-void ReadFlags::add(CLI::App& command) {
+void ReadFlags::add(Command command) {
   command.add_option("--from", from,
                      "Parameterization of the input: NAME[:LAYOUT][,PARAMETER=VALUE] (see `welkin list`). "
                      "Default: what the file declares, else a guess from its size");
@@ -120,13 +103,12 @@ void ReadFlags::add(CLI::App& command) {
                      "Order and quarter turns of the input's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
   command.add_option("--from-convention", convention,
                      "World of the input: three.js, blender… (`welkin list conventions`)");
-  command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb")
-      ->capture_default_str();
+  command.add_option("--colour", colour, "Transfer function of the input: auto, linear, srgb").show_default();
   command
       .add_option("--primaries", primaries,
                   "Colours of other primaries than BT.709's: convert them, or keep them as they are")
-      ->check(CLI::IsMember({"convert", "keep"}))
-      ->capture_default_str();
+      .one_of({"convert", "keep"})
+      .show_default();
   command.add_option("--from-encoding", encoding,
                      "How radiance lies in the input's R G B A of 8 bits: rgbm,range=6, rgbd, rgbp, rgbe. "
                      "Default: as files of ours say, else not at all");
@@ -144,20 +126,20 @@ void ReadFlags::add(CLI::App& command) {
       .add_option("--layer", layer,
                   "Layer to read: what its channels' names have before the last dot, or some of that; or a "
                   "part's or a view's name (see `welkin info`). Default: the picture with colour")
-      ->check([](const std::string& name) { return name.empty() ? "is empty" : ""; }, "");
+      .check([](const std::string& name) { return name.empty() ? "is empty" : ""; });
   command
       .add_option("--part", part,
                   "Which picture of a file with several, or which cube of an array (from 0). Default: the "
                   "picture with colour")
-      ->check(CLI::Range(0, 1 << 30));
+      .within(0, 1 << 30);
   command
       .add_option("--from-border", border,
                   "Texels of safety border around every chart of the input, where it doesn't declare them")
-      ->check(CLI::Range(0, 65536));
+      .within(0, 65536);
 }
 
-void ReadFlags::add_level(CLI::App& command, const std::string& description) {
-  command.add_option("--level", level, description)->check(CLI::Range(0, 20));
+void ReadFlags::add_level(Command command, const std::string& description) {
+  command.add_option("--level", level, description).within(0, 20);
 }
 
 ReadMapOptions ReadFlags::parse() const {
@@ -242,7 +224,7 @@ LoadedMap ReadFlags::read(const std::string& path) const {
   return {reader.read(), reader.info()};
 }
 
-void WriteFlags::add(CLI::App& command) {
+void WriteFlags::add(Command command) {
   command.add_option("--to-faces", faces,
                      "Order and quarter turns of the output's faces, as px,nx,py:90,ny:270:mirror,pz,nz");
   command.add_option(
@@ -252,18 +234,18 @@ void WriteFlags::add(CLI::App& command) {
   command.add_option("--encoding,--to-encoding", encoding,
                      "Radiance in R G B A of 8 bits, of PNG: rgbm,range=6, rgbd, rgbp, rgbe");
   command.add_option("--to-colour", colour, "Transfer function of the output: auto, linear, srgb")
-      ->capture_default_str();
+      .show_default();
   command.add_option("--compression", compression, "none, rle, zip, piz, dwaa…, as the format has it");
   command
       .add_option("--quality", quality,
                   "Of lossy formats 1 to 100; of bc6h and uastc-hdr how long the best blocks are searched: "
                   "fast, normal, best")
-      ->option_text("TEXT [95, normal]");
+      .help_value("TEXT [95, normal]");
   command
       .add_option("--border", border,
                   "Texels of safety border to write around every chart, for renderers that sample charts as "
                   "plain textures")
-      ->check(CLI::Range(0, 65536));
+      .within(0, 65536);
 }
 
 namespace {
@@ -304,7 +286,7 @@ WriteMapOptions WriteFlags::parse() const {
   return options;
 }
 
-void add_format(CLI::App& command, std::string& format) {
+void add_format(Command command, std::string& format) {
   command.add_option("--format", format,
                      "Format of what is written to standard output, where OUT is -: exr, png…");
 }

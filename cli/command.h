@@ -1,12 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "options.h"
 #include "progress.h"
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
@@ -34,9 +33,6 @@ auto parse_option(std::string_view option, const Parse& parse) {
   }
 }
 
-/// Accepts finite numbers of at least `minimum`.
-CLI::Validator finite_number(double minimum = -std::numeric_limits<double>::max());
-
 /// Text of a file or a pipe for the terminal: control characters become `?`, and a text of over `longest`
 /// bytes is cut.
 std::string printable(std::string text, std::size_t longest = 200);
@@ -63,9 +59,9 @@ struct ReadFlags {
   bool pixels = true;  ///< whether opening may read some, to find out how faces join
   bool warn = true;    ///< on stderr of what the files' readers warn of
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// `--level`, for commands that read one level of a file with several.
-  void add_level(CLI::App& command, const std::string& description);
+  void add_level(Command command, const std::string& description);
   /// Throws UsageError.
   ReadMapOptions parse() const;
   /// The file opened, with the faces and the convention applied to the file's own parameterization, at the
@@ -82,13 +78,13 @@ struct WriteFlags {
   std::string quality, encoding;
   int border = 0;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Throws UsageError.
   WriteMapOptions parse() const;
 };
 
 /// `--format`, for commands that write to standard output where OUT is `-`.
-void add_format(CLI::App& command, std::string& format);
+void add_format(Command command, std::string& format);
 /// The path to write to: `out`, or where that is `-` the standard output as a file of this format. Throws
 /// UsageError for `-` without a format or to a terminal, and for a file with one.
 std::string output_path(const std::string& out, const std::string& format);

@@ -48,7 +48,7 @@ struct Convert {
   bool allow_ringing = false, verify = false, json = false;
 
   void run() const;
-  void run_of_coefficients(const CLI::App& command) const {
+  void run_of_coefficients(const Command& command) const {
     check_coefficients_options(command);
     CoefficientsToMap{in, out, to, size, rotation, convention, scale * std::exp2(exposure), write}.run();
   }
@@ -338,58 +338,57 @@ Map Convert::converted(const Map& source, const MapFrame& frame, const ResampleO
 
 }  // namespace
 
-void add_convert(CLI::App& app) {
+void add_convert(Command app) {
   auto convert = std::make_shared<Convert>();
-  CLI::App* command =
-      app.add_subcommand("convert", "Convert a map between parameterizations, layouts and file formats");
+  Command command =
+      app.add_command("convert", "Convert a map between parameterizations, layouts and file formats");
   command
-      ->add_option("IN", convert->in,
-                   "Map to read; %s in the name stands for a face's name (px, nx…); - is standard input; or "
-                   "coefficients of harmonics: .json, .csv, .txt")
-      ->required();
+      .add_option("IN", convert->in,
+                  "Map to read; %s in the name stands for a face's name (px, nx…); - is standard input; or "
+                  "coefficients of harmonics: .json, .csv, .txt")
+      .required();
   command
-      ->add_option("OUT", convert->out,
-                   "Map to write; its extension names the format; - is standard output, see --format")
-      ->required();
-  command->add_option(
-      "--to", convert->to,
-      "Parameterization of the output: NAME[:LAYOUT][,PARAMETER=VALUE]. Default: the input's");
-  command->add_option(
+      .add_option("OUT", convert->out,
+                  "Map to write; its extension names the format; - is standard output, see --format")
+      .required();
+  command.add_option("--to", convert->to,
+                     "Parameterization of the output: NAME[:LAYOUT][,PARAMETER=VALUE]. Default: the input's");
+  command.add_option(
       "--size", convert->size,
       "Size of a chart (a face) in texels: N across, or WxH. Default: as many texels as the input has");
-  command->add_option("--filter", convert->filter, "auto (antialiased), nearest, bilinear, bicubic, lanczos")
-      ->capture_default_str();
-  command->add_option(
+  command.add_option("--filter", convert->filter, "auto (antialiased), nearest, bilinear, bicubic, lanczos")
+      .show_default();
+  command.add_option(
       "--rotate", convert->rotation,
       "Rotate the world: yaw,pitch,roll in degrees, a quaternion w,x,y,z, or nine matrix entries");
-  command->add_option("--convention,--to-convention", convert->convention,
-                      "World of the output: three.js, blender… (`welkin list conventions`)");
-  convert->curve.add(*command);
-  command->add_option("--exposure", convert->exposure, "Brighten by this many stops")->check(finite_number());
-  command->add_option("--scale", convert->scale, "Multiply radiance")->check(finite_number());
-  command->add_option(
+  command.add_option("--convention,--to-convention", convert->convention,
+                     "World of the output: three.js, blender… (`welkin list conventions`)");
+  convert->curve.add(command);
+  command.add_option("--exposure", convert->exposure, "Brighten by this many stops").finite();
+  command.add_option("--scale", convert->scale, "Multiply radiance").finite();
+  command.add_option(
       "--fill", convert->fill,
       "Value, one per channel, for directions that the input doesn't show and texels outside the "
       "output's discs and triangles. Default: 0");
-  command->add_flag("--allow-ringing", convert->allow_ringing,
-                    "Leave the overshoot of bicubic and lanczos beside bright lights unclamped");
-  convert->repair.add(*command);
-  command->add_flag("--verify", convert->verify,
-                    "Read what was written, and print the energy before and after, of the whole and of the "
-                    "brightest lights; exit with status 1 when that of the whole changed by over 0.1 %");
-  command->add_flag("--json", convert->json, "With --verify: machine-readable, on standard output");
-  convert->read.add(*command);
-  convert->read.add_level(*command,
+  command.add_flag("--allow-ringing", convert->allow_ringing,
+                   "Leave the overshoot of bicubic and lanczos beside bright lights unclamped");
+  convert->repair.add(command);
+  command.add_flag("--verify", convert->verify,
+                   "Read what was written, and print the energy before and after, of the whole and of the "
+                   "brightest lights; exit with status 1 when that of the whole changed by over 0.1 %");
+  command.add_flag("--json", convert->json, "With --verify: machine-readable, on standard output");
+  convert->read.add(command);
+  convert->read.add_level(command,
                           "Level of the input to take. Default: all, where the output holds levels and they "
                           "are filtered or keep their shape");
-  convert->write.add(*command);
-  add_format(*command, convert->format);
-  command->callback([convert, command] {
+  convert->write.add(command);
+  add_format(command, convert->format);
+  command.callback([convert, command] {
     if (convert->verify && convert->out == "-")
       throw UsageError(
           "--verify: reads what was written, which standard output does not allow: write a file");
     convert->out = output_path(convert->out, convert->format);
-    if (harmonics::is_coefficients_path(convert->in)) return convert->run_of_coefficients(*command);
+    if (harmonics::is_coefficients_path(convert->in)) return convert->run_of_coefficients(command);
     convert->in = input_path(convert->in);
     convert->run();
   });

@@ -44,10 +44,10 @@ void CoefficientsToMap::run() const {
   output.write_harmonics(harmonics, file.of, "");
 }
 
-void check_coefficients_options(const CLI::App& convert) {
-  for (const CLI::Option* option : convert.get_options()) {
-    if (option->count() == 0 || option->get_positional()) continue;
-    const std::string& name = option->get_lnames().front();
+void check_coefficients_options(const Command& convert) {
+  for (const Option& option : convert.options()) {
+    if (!option.given() || option.positional()) continue;
+    const std::string name = option.long_names().front();
     if (std::find(kMeantForCoefficients.begin(), kMeantForCoefficients.end(), name) ==
         kMeantForCoefficients.end())
       throw UsageError(fmt::format("--{}: is about texels, of which coefficients have none", name));

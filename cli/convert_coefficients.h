@@ -17,6 +17,6 @@ struct CoefficientsToMap {
 };
 
 /// UsageError for an option of `convert` that is given and is about texels, of which coefficients have none.
-void check_coefficients_options(const CLI::App& convert);
+void check_coefficients_options(const Command& convert);
 
 }  // namespace welkin::cli

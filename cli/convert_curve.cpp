@@ -6,7 +6,7 @@
 
 namespace welkin::cli {
 
-void CurveFlags::add(CLI::App& command) {
+void CurveFlags::add(Command command) {
   command.add_option(
       "--roughness-curve", curve,
       "Other roughness for the levels of a chain that `bake` made, without a new bake: a curve "
@@ -14,7 +14,7 @@ void CurveFlags::add(CLI::App& command) {
   command
       .add_option("--levels", count,
                   "How many levels --roughness-curve makes. Default: as many as the list, or the input, has")
-      ->check(CLI::Range(1, 21));
+      .within(1, 21);
 }
 
 void CurveFlags::parse(const std::string& out, const ReadFlags& read) const {

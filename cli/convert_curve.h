@@ -9,7 +9,7 @@ struct CurveFlags {
   std::string curve;
   std::optional<int> count;
 
-  void add(CLI::App& command);
+  void add(Command command);
   bool asked() const { return !curve.empty(); }
   /// Throws UsageError.
   void parse(const std::string& out, const ReadFlags& read) const;

@@ -156,38 +156,37 @@ void Diff::run() const {
 
 }  // namespace
 
-void add_diff(CLI::App& app) {
+void add_diff(Command app) {
   auto diff = std::make_shared<Diff>();
-  CLI::App* command = app.add_subcommand(
-      "diff", "Measure how B differs from A over the sphere, also across parameterizations");
-  command->add_option("A", diff->a, "Reference map; - is standard input")->required();
-  command->add_option("B", diff->b, "Map to compare; - is standard input")->required();
-  command->add_option("--from-b", diff->from_b, "Parameterization of B, where it differs from --from");
+  Command command =
+      app.add_command("diff", "Measure how B differs from A over the sphere, also across parameterizations");
+  command.add_option("A", diff->a, "Reference map; - is standard input").required();
+  command.add_option("B", diff->b, "Map to compare; - is standard input").required();
+  command.add_option("--from-b", diff->from_b, "Parameterization of B, where it differs from --from");
   command
-      ->add_option("--filter", diff->filter,
-                   "How the coarser map is read: nearest, bilinear, bicubic, lanczos")
-      ->capture_default_str();
+      .add_option("--filter", diff->filter,
+                  "How the coarser map is read: nearest, bilinear, bicubic, lanczos")
+      .show_default();
   command
-      ->add_option("--peak", diff->peak,
-                   "What PSNR is relative to. Default: 1, or A's maximum where that is above 1")
-      ->check(finite_number(0));
-  command->add_option(
+      .add_option("--peak", diff->peak,
+                  "What PSNR is relative to. Default: 1, or A's maximum where that is above 1")
+      .finite(0);
+  command.add_option(
       "--heat", diff->heat,
       "Write a picture of the relative error (lat-long, colour scale 1e-5 to 1); - is standard output, see "
       "--format");
   command
-      ->add_option("--fail-above", diff->fail_above,
-                   "Exit with status 1 when the relative RMSE is above this")
-      ->check(finite_number(0));
-  command->add_flag("--json", diff->json, "Machine-readable, on standard output");
-  diff->read.add(*command);
+      .add_option("--fail-above", diff->fail_above, "Exit with status 1 when the relative RMSE is above this")
+      .finite(0);
+  command.add_flag("--json", diff->json, "Machine-readable, on standard output");
+  diff->read.add(command);
   command
-      ->add_option(
+      .add_option(
           "--level", diff->level,
           "Level to compare, of both files or of the one that has several. Default: each that both have")
-      ->check(CLI::Range(0, 20));
-  add_format(*command, diff->format);
-  command->callback([diff] {
+      .within(0, 20);
+  add_format(command, diff->format);
+  command.callback([diff] {
     if (diff->a == "-" && diff->b == "-")
       throw UsageError("-: standard input holds one file, not both A and B");
     diff->heat = output_path(diff->heat, diff->format);

@@ -88,33 +88,31 @@ void Importance::run() const {
 
 }  // namespace
 
-void add_importance(CLI::App& app) {
+void add_importance(Command app) {
   auto importance = std::make_shared<Importance>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.add_command(
       "importance", "Write tables for importance sampling: for renderers that draw directions towards light");
-  command->add_option("IN", importance->in, "Map to read; - is standard input")->required();
+  command.add_option("IN", importance->in, "Map to read; - is standard input").required();
   command
-      ->add_option(
-          "OUT", importance->out,
-          "Tables, .exr or .ktx2. Of cdf also OUT_rows with the rows' distribution; always a header, "
-          ".json")
-      ->required();
+      .add_option("OUT", importance->out,
+                  "Tables, .exr or .ktx2. Of cdf also OUT_rows with the rows' distribution; always a header, "
+                  ".json")
+      .required();
   command
-      ->add_option("--method", importance->method,
-                   "cdf: row, then column, by inversion, which keeps strata; alias: one look-up a draw")
-      ->capture_default_str();
-  command->add_flag("--compensate", importance->compensate,
-                    "For multiple importance sampling: subtract the mean, and never draw what is darker");
+      .add_option("--method", importance->method,
+                  "cdf: row, then column, by inversion, which keeps strata; alias: one look-up a draw")
+      .show_default();
+  command.add_flag("--compensate", importance->compensate,
+                   "For multiple importance sampling: subtract the mean, and never draw what is darker");
   command
-      ->add_option(
-          "--look-up", importance->look_up,
-          "How the renderer reads the map: nearest, or bilinear, whose light reaches a texel farther")
-      ->check(CLI::IsMember({"nearest", "bilinear"}))
-      ->capture_default_str();
-  command->add_flag("--json", importance->json, "Print the header instead of a summary");
-  importance->read.add(*command);
-  importance->repair.add(*command);
-  command->callback([importance] {
+      .add_option("--look-up", importance->look_up,
+                  "How the renderer reads the map: nearest, or bilinear, whose light reaches a texel farther")
+      .one_of({"nearest", "bilinear"})
+      .show_default();
+  command.add_flag("--json", importance->json, "Print the header instead of a summary");
+  importance->read.add(command);
+  importance->repair.add(command);
+  command.callback([importance] {
     importance->in = input_path(importance->in);
     importance->run();
   });

@@ -347,17 +347,17 @@ void Info::run() const {
 
 }  // namespace
 
-void add_info(CLI::App& app) {
+void add_info(Command app) {
   auto info = std::make_shared<Info>();
-  CLI::App* command =
-      app.add_subcommand("info", "Describe a file: format, parameterization, luminance, brightest light");
-  command->add_option("FILE", info->files, "Maps to read; - is standard input")->required();
-  command->add_flag("--header", info->header, "Only what the header says; read no pixels");
-  command->add_flag("--json", info->json, "Machine-readable, on standard output");
+  Command command =
+      app.add_command("info", "Describe a file: format, parameterization, luminance, brightest light");
+  command.add_option("FILE", info->files, "Maps to read; - is standard input").required();
+  command.add_flag("--header", info->header, "Only what the header says; read no pixels");
+  command.add_flag("--json", info->json, "Machine-readable, on standard output");
   info->read.warn = false;  // they are in the report
-  info->read.add(*command);
-  info->read.add_level(*command, "Level to measure. Default: the finest, and every level's mean");
-  command->callback([info] {
+  info->read.add(command);
+  info->read.add_level(command, "Level to measure. Default: the finest, and every level's mean");
+  command.callback([info] {
     if (std::count(info->files.begin(), info->files.end(), "-") > 1)
       throw UsageError("-: standard input holds one file, and is named twice");
     for (std::string& file : info->files) file = input_path(file);

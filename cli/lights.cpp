@@ -203,55 +203,54 @@ void Lights::run() {
 
 }  // namespace
 
-void add_lights(CLI::App& app) {
+void add_lights(Command app) {
   auto lights = std::make_shared<Lights>();
-  CLI::App* command =
-      app.add_subcommand("lights", "Find a map's suns and lamps, or make lights of all of it");
+  Command command = app.add_command("lights", "Find a map's suns and lamps, or make lights of all of it");
   command
-      ->add_option("IN", lights->in,
-                   "Map to read; %s in the name stands for a face's name; - is standard input")
-      ->required();
-  command->add_option("OUT", lights->out,
-                      "File to write: .json, .js (three.js), .gltf, .rs (Bevy), .py (Blender), .pbrt, .xml "
-                      "(Mitsuba), .usda. Default: a table on standard output");
+      .add_option("IN", lights->in,
+                  "Map to read; %s in the name stands for a face's name; - is standard input")
+      .required();
+  command.add_option("OUT", lights->out,
+                     "File to write: .json, .js (three.js), .gltf, .rs (Bevy), .py (Blender), .pbrt, .xml "
+                     "(Mitsuba), .usda. Default: a table on standard output");
   command
-      ->add_option("--for", lights->target, "Format, whatever OUT is called; without OUT, on standard output")
-      ->check(CLI::IsMember(format_names()));
+      .add_option("--for", lights->target, "Format, whatever OUT is called; without OUT, on standard output")
+      .one_of(format_names());
   command
-      ->add_option(
+      .add_option(
           "--method", lights->method,
           "sources: suns and lamps, taken out of the map; median-cut, variance: N lights that stand for "
           "all of it")
-      ->check(CLI::IsMember({"sources", "median-cut", "variance"}))
-      ->capture_default_str();
+      .one_of({"sources", "median-cut", "variance"})
+      .show_default();
   command
-      ->add_option("--most", lights->most,
-                   "At most so many lights, the strongest. Default: 16; of the other methods 64")
-      ->check(CLI::Range(0, 65536));
+      .add_option("--most", lights->most,
+                  "At most so many lights, the strongest. Default: 16; of the other methods 64")
+      .within(0, 65536);
   command
-      ->add_option("--above", lights->above,
-                   "Only lights whose peak is at least so many times the map's mean luminance. Default: 10")
-      ->check(finite_number(1.000001));
+      .add_option("--above", lights->above,
+                  "Only lights whose peak is at least so many times the map's mean luminance. Default: 10")
+      .finite(1.000001);
   command
-      ->add_option("--sun-irradiance", lights->sun_irradiance,
-                   "Luminance of the strongest light's irradiance, to restore a clipped sun")
-      ->check(finite_number(1e-30));
-  command->add_option("--residual", lights->residual,
-                      "Map to write: what is left, smooth where lights were; its extension names the format");
+      .add_option("--sun-irradiance", lights->sun_irradiance,
+                  "Luminance of the strongest light's irradiance, to restore a clipped sun")
+      .finite(1e-30);
+  command.add_option("--residual", lights->residual,
+                     "Map to write: what is left, smooth where lights were; its extension names the format");
   command
-      ->add_option("--unit", lights->unit,
-                   "What 1 in the map stands for, in what is written for a program: cd/m², W/(m²·sr)")
-      ->check(finite_number(1e-30))
-      ->capture_default_str();
-  command->add_option("--convention", lights->convention,
-                      "World of the directions in the table and in JSON: unity, blender… "
-                      "(`welkin list conventions`)");
-  command->add_flag("--json", lights->json, "Machine-readable, on standard output");
-  lights->repair.add(*command);
-  lights->read.add(*command);
-  lights->read.add_level(*command, "Level of the input to take. Default: the finest");
-  lights->write.add(*command);
-  command->callback([lights] {
+      .add_option("--unit", lights->unit,
+                  "What 1 in the map stands for, in what is written for a program: cd/m², W/(m²·sr)")
+      .finite(1e-30)
+      .show_default();
+  command.add_option("--convention", lights->convention,
+                     "World of the directions in the table and in JSON: unity, blender… "
+                     "(`welkin list conventions`)");
+  command.add_flag("--json", lights->json, "Machine-readable, on standard output");
+  lights->repair.add(command);
+  lights->read.add(command);
+  lights->read.add_level(command, "Level of the input to take. Default: the finest");
+  lights->write.add(command);
+  command.callback([lights] {
     lights->in = input_path(lights->in);
     lights->run();
   });

@@ -124,18 +124,18 @@ const std::map<std::string, std::function<void()>>& lists() {
 
 }  // namespace
 
-void add_list(CLI::App& app) {
+void add_list(Command app) {
   auto what = std::make_shared<std::string>("parameterizations");
-  CLI::App* command = app.add_subcommand("list", "Names that other commands take");
+  Command command = app.add_command("list", "Names that other commands take");
   std::vector<std::string> names;
   for (const auto& [name, print] : lists()) names.push_back(name);
   command
-      ->add_option(
+      .add_option(
           "WHAT", *what,
           "brdfs, conventions, curves, engines, filters, formats, layouts, lobes, luts, maps, methods, "
           "parameterizations, parameters, scenes")
-      ->capture_default_str();
-  command->callback([what, names] {
+      .show_default();
+  command.callback([what, names] {
     const auto found = lists().find(*what);
     if (found == lists().end()) throw UsageError(unknown_name("list", *what, names));
     found->second();

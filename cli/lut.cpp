@@ -168,56 +168,55 @@ void Lut::run() {
 
 }  // namespace
 
-void add_lut(CLI::App& app) {
+void add_lut(Command app) {
   auto lut = std::make_shared<Lut>();
-  CLI::App* command =
-      app.add_subcommand("lut", "Make a renderer's look-up table: DFG, Fresnel, average albedo");
-  command->add_option("OUT", lut->out, "ktx2, exr, png…, or .h for C; - is standard output, see --format")
-      ->required();
+  Command command = app.add_command("lut", "Make a renderer's look-up table: DFG, Fresnel, average albedo");
+  command.add_option("OUT", lut->out, "ktx2, exr, png…, or .h for C; - is standard output, see --format")
+      .required();
   command
-      ->add_option("--kind", lut->kind,
-                   "dfg: split-sum integrals over n·v and roughness; fresnel: reflectance over the cosine; "
-                   "average: E's mean "
-                   "over roughness")
-      ->check(CLI::IsMember({"dfg", "fresnel", "average"}))
-      ->capture_default_str();
-  command->add_option("--for", lut->engine,
-                      "Renderer whose axes, contents, size and type the table has (`welkin list luts`); "
-                      "other options change it");
-  command->add_option("--size", lut->size,
-                      "WxH or N texels. Default: the renderer's, 128x128; one row of 256");
-  command->add_option(
+      .add_option("--kind", lut->kind,
+                  "dfg: split-sum integrals over n·v and roughness; fresnel: reflectance over the cosine; "
+                  "average: E's mean "
+                  "over roughness")
+      .one_of({"dfg", "fresnel", "average"})
+      .show_default();
+  command.add_option("--for", lut->engine,
+                     "Renderer whose axes, contents, size and type the table has (`welkin list luts`); "
+                     "other options change it");
+  command.add_option("--size", lut->size,
+                     "WxH or N texels. Default: the renderer's, 128x128; one row of 256");
+  command.add_option(
       "--channels", lut->channels,
       "One to four of scale, bias, one, missing, cloth, sheen, disney-diffuse, zero. Default: scale,bias");
-  command->add_flag("--multiscatter", lut->multiscatter, "The same as --channels bias,one");
-  command->add_flag("--cosine-down", lut->cosine_down, "n·v runs down and roughness to the right");
+  command.add_flag("--multiscatter", lut->multiscatter, "The same as --channels bias,one");
+  command.add_flag("--cosine-down", lut->cosine_down, "n·v runs down and roughness to the right");
   command
-      ->add_option("--cosine", lut->cosine,
-                   "What the coordinate of n·v is: linear, root (√n·v). Default: linear")
-      ->check(CLI::IsMember({"linear", "root"}));
+      .add_option("--cosine", lut->cosine,
+                  "What the coordinate of n·v is: linear, root (√n·v). Default: linear")
+      .one_of({"linear", "root"});
   command
-      ->add_option("--roughness", lut->roughness,
-                   "Of the roughness: perceptual, alpha (its square). Default: perceptual")
-      ->check(CLI::IsMember({"perceptual", "alpha"}));
+      .add_option("--roughness", lut->roughness,
+                  "Of the roughness: perceptual, alpha (its square). Default: perceptual")
+      .one_of({"perceptual", "alpha"});
   command
-      ->add_option("--texels", lut->texels,
-                   "Where 0 and 1 lie: centres, on the table's outer edges; ends, on the outermost texels' "
-                   "centres. Default: "
-                   "centres, of one row ends")
-      ->check(CLI::IsMember({"centres", "ends"}));
-  command->add_option(
+      .add_option("--texels", lut->texels,
+                  "Where 0 and 1 lie: centres, on the table's outer edges; ends, on the outermost texels' "
+                  "centres. Default: "
+                  "centres, of one row ends")
+      .one_of({"centres", "ends"});
+  command.add_option(
       "--masking", lut->masking,
       "How GGX facets hide each other: correlated, separable, schlick, approximate. Default: correlated");
-  command->add_option("--eta,--ior", lut->eta, "Of fresnel: index behind over index in front. Default: 1.5")
-      ->check(finite_number());
-  command->add_option("--n", lut->n, "Of fresnel: a metal's index")->check(finite_number());
-  command->add_option("--k", lut->k, "And its extinction coefficient")->check(finite_number());
-  command->add_option("--type", lut->type,
-                      "Stored values: uint8, uint16, half, float. Default: the renderer's; half in KTX2; the "
-                      "format's best");
-  command->add_flag("--json", lut->json, "Machine-readable, on standard output");
-  add_format(*command, lut->format);
-  command->callback([lut] {
+  command.add_option("--eta,--ior", lut->eta, "Of fresnel: index behind over index in front. Default: 1.5")
+      .finite();
+  command.add_option("--n", lut->n, "Of fresnel: a metal's index").finite();
+  command.add_option("--k", lut->k, "And its extinction coefficient").finite();
+  command.add_option("--type", lut->type,
+                     "Stored values: uint8, uint16, half, float. Default: the renderer's; half in KTX2; the "
+                     "format's best");
+  command.add_flag("--json", lut->json, "Machine-readable, on standard output");
+  add_format(command, lut->format);
+  command.callback([lut] {
     lut->out = output_path(lut->out, lut->format);
     lut->run();
   });

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 #include <tbb/global_control.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -58,23 +59,24 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "always", "never"}));
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "No warnings on stderr of what reading changed, guessed or left undone");
-  cli::add_info(app);
-  cli::add_convert(app);
-  cli::add_bake(app);
-  cli::add_view(app);
-  cli::add_render(app);
-  cli::add_roughness(app);
-  cli::add_project(app);
-  cli::add_sample(app);
-  cli::add_importance(app);
-  cli::add_diff(app);
-  cli::add_assemble(app);
-  cli::add_lights(app);
-  cli::add_synth(app);
-  cli::add_sh(app);
-  cli::add_plot(app);
-  cli::add_lut(app);
-  cli::add_list(app);
+  const cli::Command all(&app);
+  cli::add_info(all);
+  cli::add_convert(all);
+  cli::add_bake(all);
+  cli::add_view(all);
+  cli::add_render(all);
+  cli::add_roughness(all);
+  cli::add_project(all);
+  cli::add_sample(all);
+  cli::add_importance(all);
+  cli::add_diff(all);
+  cli::add_assemble(all);
+  cli::add_lights(all);
+  cli::add_synth(all);
+  cli::add_sh(all);
+  cli::add_plot(all);
+  cli::add_lut(all);
+  cli::add_list(all);
   std::vector<std::string> topics;
   CLI::App* help = app.add_subcommand("help", "Help on a command");
   help->add_option("COMMAND", topics, "As `convert`, or `plot density`");

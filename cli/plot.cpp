@@ -101,17 +101,15 @@ struct PlotDistortion {
   }
 };
 
-void add_plot_distortion(CLI::App& plot) {
+void add_plot_distortion(Command plot) {
   auto request = std::make_shared<PlotDistortion>();
-  CLI::App* command = plot.add_subcommand(
+  Command command = plot.add_command(
       "distortion", "How far circles on a paraboloid map are from circles about the same point");
-  command->add_option("OUT", request->out,
-                      "Picture to write; without it, only the numbers; - is standard output, see --format");
-  command->add_option("--size", request->width, "Width of the picture")
-      ->check(CLI::Range(200, 4096))
-      ->capture_default_str();
-  add_format(*command, request->format);
-  command->callback([request] {
+  command.add_option("OUT", request->out,
+                     "Picture to write; without it, only the numbers; - is standard output, see --format");
+  command.add_option("--size", request->width, "Width of the picture").within(200, 4096).show_default();
+  add_format(command, request->format);
+  command.callback([request] {
     request->out = output_path(request->out, request->format);
     request->run();
   });
@@ -119,47 +117,44 @@ void add_plot_distortion(CLI::App& plot) {
 
 }  // namespace
 
-void add_plot(CLI::App& app) {
-  CLI::App* plot = app.add_subcommand(
+void add_plot(Command app) {
+  Command plot = app.add_command(
       "plot",
       "Plot texel densities, lobes, reflectances, a map's pyramid, its look-ups or circles on paraboloids");
-  plot->require_subcommand(1);
+  plot.require_command();
 
   auto density = std::make_shared<PlotDensity>();
-  CLI::App* command = plot->add_subcommand(
+  Command command = plot.add_command(
       "density", "Solid angle of a texel over the average: picture, minimum, maximum, ratio");
-  command->add_option("OUT", density->out,
-                      "Picture to write; without it, only the numbers; - is standard output, see --format");
-  command->add_option("--of", density->of, "Parameterization. Default: the numbers of all");
-  command->add_option("--size", density->size, "Texels across a chart")
-      ->check(CLI::Range(2, 16384))
-      ->capture_default_str();
-  command->add_flag("--json", density->json, "Machine-readable, on standard output");
-  add_format(*command, density->format);
-  command->callback([density] {
+  command.add_option("OUT", density->out,
+                     "Picture to write; without it, only the numbers; - is standard output, see --format");
+  command.add_option("--of", density->of, "Parameterization. Default: the numbers of all");
+  command.add_option("--size", density->size, "Texels across a chart").within(2, 16384).show_default();
+  command.add_flag("--json", density->json, "Machine-readable, on standard output");
+  add_format(command, density->format);
+  command.callback([density] {
     density->out = output_path(density->out, density->format);
     density->run();
   });
 
   auto mips = std::make_shared<PlotMips>();
-  command = plot->add_subcommand(
+  command = plot.add_command(
       "mips", "A map's pyramid twice: plain 2×2 averages above, weighted by solid angle below");
-  command->add_option("IN", mips->in, "Map to read; - is standard input")->required();
-  command->add_option("OUT", mips->out, "Picture to write; - is standard output, see --format")->required();
-  command->add_option("--exposure", mips->exposure, "Brighten the picture by this many stops")
-      ->check(finite_number());
-  mips->read.add(*command);
-  add_format(*command, mips->format);
-  command->callback([mips] {
+  command.add_option("IN", mips->in, "Map to read; - is standard input").required();
+  command.add_option("OUT", mips->out, "Picture to write; - is standard output, see --format").required();
+  command.add_option("--exposure", mips->exposure, "Brighten the picture by this many stops").finite();
+  mips->read.add(command);
+  add_format(command, mips->format);
+  command.callback([mips] {
     mips->out = output_path(mips->out, mips->format);
     mips->in = input_path(mips->in);
     mips->run();
   });
 
-  add_plot_cones(*plot);
-  add_plot_lobe(*plot);
-  add_plot_fresnel(*plot);
-  add_plot_distortion(*plot);
+  add_plot_cones(plot);
+  add_plot_lobe(plot);
+  add_plot_fresnel(plot);
+  add_plot_distortion(plot);
 }
 
 }  // namespace welkin::cli

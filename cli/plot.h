@@ -5,10 +5,10 @@
 namespace welkin::cli {
 
 /// Adds `cones` to `plot`.
-void add_plot_cones(CLI::App& plot);
+void add_plot_cones(Command plot);
 /// Adds `fresnel` to `plot`.
-void add_plot_fresnel(CLI::App& plot);
+void add_plot_fresnel(Command plot);
 /// Adds `lobe` to `plot`.
-void add_plot_lobe(CLI::App& plot);
+void add_plot_lobe(Command plot);
 
 }  // namespace welkin::cli

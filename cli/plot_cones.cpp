@@ -42,29 +42,28 @@ struct PlotCones {
 
 }  // namespace
 
-void add_plot_cones(CLI::App& plot) {
+void add_plot_cones(Command plot) {
   auto request = std::make_shared<PlotCones>();
-  CLI::App* command = plot.add_subcommand(
+  Command command = plot.add_command(
       "cones", "A map in a mirror ball by every filter of cones, beside the mean of 256 rays a pixel");
-  command->add_option("IN", request->in, "Map to read; - is standard input")->required();
-  command->add_option("OUT", request->out, "Picture to write; - is standard output, see --format")
-      ->required();
+  command.add_option("IN", request->in, "Map to read; - is standard input").required();
+  command.add_option("OUT", request->out, "Picture to write; - is standard output, see --format").required();
   command
-      ->add_option("--filter", request->filters,
-                   "nearest, bilinear, trilinear, differential, mirrored, box, sat, probes, ewa, hybrid, "
-                   "gaussian; again "
-                   "for more tiles. Default: all that the map can be looked up with")
-      ->allow_extra_args(false);
-  command->add_option("--to", request->sheet.camera, "Parameterization that tiles are pictures of")
-      ->capture_default_str();
-  command->add_option("--size", request->sheet.size, "Pixels along a tile's longer side")
-      ->check(CLI::Range(16, 2048))
-      ->capture_default_str();
-  command->add_option("--exposure", request->sheet.exposure, "Brighten the picture by this many stops")
-      ->check(finite_number());
-  request->read.add(*command);
-  add_format(*command, request->format);
-  command->callback([request] {
+      .add_option("--filter", request->filters,
+                  "nearest, bilinear, trilinear, differential, mirrored, box, sat, probes, ewa, hybrid, "
+                  "gaussian; again "
+                  "for more tiles. Default: all that the map can be looked up with")
+      .several_words(false);
+  command.add_option("--to", request->sheet.camera, "Parameterization that tiles are pictures of")
+      .show_default();
+  command.add_option("--size", request->sheet.size, "Pixels along a tile's longer side")
+      .within(16, 2048)
+      .show_default();
+  command.add_option("--exposure", request->sheet.exposure, "Brighten the picture by this many stops")
+      .finite();
+  request->read.add(command);
+  add_format(command, request->format);
+  command.callback([request] {
     request->out = output_path(request->out, request->format);
     request->in = input_path(request->in);
     request->run();

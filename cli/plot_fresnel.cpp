@@ -63,23 +63,21 @@ void PlotFresnel::run() const {
 
 }  // namespace
 
-void add_plot_fresnel(CLI::App& plot) {
+void add_plot_fresnel(Command plot) {
   auto request = std::make_shared<PlotFresnel>();
-  CLI::App* command =
-      plot.add_subcommand("fresnel", "Reflectance of glass and metals against the angle of incidence");
-  command->add_option("OUT", request->out,
-                      "Picture to write; without it, only the numbers; - is standard output, see --format");
+  Command command =
+      plot.add_command("fresnel", "Reflectance of glass and metals against the angle of incidence");
+  command.add_option("OUT", request->out,
+                     "Picture to write; without it, only the numbers; - is standard output, see --format");
   command
-      ->add_option("--eta,--ior", request->specs,
-                   "Index behind over index in front, N, or of a metal N,K; again for more curves. Default: "
-                   "1.5, 5 and 200")
-      ->allow_extra_args(false);
-  command->add_option("--size", request->width, "Width of the picture")
-      ->check(CLI::Range(200, 4096))
-      ->capture_default_str();
-  command->add_flag("--json", request->json, "Machine-readable, on standard output");
-  add_format(*command, request->format);
-  command->callback([request] {
+      .add_option("--eta,--ior", request->specs,
+                  "Index behind over index in front, N, or of a metal N,K; again for more curves. Default: "
+                  "1.5, 5 and 200")
+      .several_words(false);
+  command.add_option("--size", request->width, "Width of the picture").within(200, 4096).show_default();
+  command.add_flag("--json", request->json, "Machine-readable, on standard output");
+  add_format(command, request->format);
+  command.callback([request] {
     request->out = output_path(request->out, request->format);
     request->run();
   });

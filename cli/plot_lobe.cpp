@@ -108,29 +108,26 @@ void PlotLobe::run() {
 
 }  // namespace
 
-void add_plot_lobe(CLI::App& plot) {
+void add_plot_lobe(Command plot) {
   auto request = std::make_shared<PlotLobe>();
-  CLI::App* command =
-      plot.add_subcommand("lobe", "Weight against angle: curves, integral, width, energy cones");
-  command->add_option("OUT", request->out,
-                      "Picture to write; without it, only the numbers; - is standard output, see --format");
+  Command command = plot.add_command("lobe", "Weight against angle: curves, integral, width, energy cones");
+  command.add_option("OUT", request->out,
+                     "Picture to write; without it, only the numbers; - is standard output, see --format");
   command
-      ->add_option("--lobe", request->specs,
-                   "NAME[,PARAMETER=VALUE], or table,file=PATH; again for more curves. Default: all, see "
-                   "`welkin list lobes`")
-      ->allow_extra_args(false);
-  command->add_option("--axis", request->axis, "Vertical axis: linear, log (six decades)")
-      ->check(CLI::IsMember({"linear", "log"}))
-      ->capture_default_str();
-  command->add_option("--angle", request->plot.degrees, "Degrees at the right edge")
-      ->check(CLI::Range(1, 180))
-      ->capture_default_str();
-  command->add_option("--size", request->plot.width, "Width of the picture")
-      ->check(CLI::Range(200, 4096))
-      ->capture_default_str();
-  command->add_flag("--json", request->json, "Machine-readable, on standard output");
-  add_format(*command, request->format);
-  command->callback([request] {
+      .add_option("--lobe", request->specs,
+                  "NAME[,PARAMETER=VALUE], or table,file=PATH; again for more curves. Default: all, see "
+                  "`welkin list lobes`")
+      .several_words(false);
+  command.add_option("--axis", request->axis, "Vertical axis: linear, log (six decades)")
+      .one_of({"linear", "log"})
+      .show_default();
+  command.add_option("--angle", request->plot.degrees, "Degrees at the right edge")
+      .within(1, 180)
+      .show_default();
+  command.add_option("--size", request->plot.width, "Width of the picture").within(200, 4096).show_default();
+  command.add_flag("--json", request->json, "Machine-readable, on standard output");
+  add_format(command, request->format);
+  command.callback([request] {
     request->out = output_path(request->out, request->format);
     request->run();
   });

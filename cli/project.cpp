@@ -22,7 +22,7 @@ struct Project {
   WorldFlags worlds;
   GridFlags grid;
 
-  void run(const CLI::App& command) const;
+  void run(const Command& command) const;
 
  private:
   scene::ProjectOptions options() const;
@@ -73,7 +73,7 @@ void Project::project(const scene::ShadedScene& seen, const Vec3d& place, const 
   report_losses(out, write_map(out, map, sized.layout, options));
 }
 
-void Project::run(const CLI::App& command) const {
+void Project::run(const Command& command) const {
   const scene::ProjectOptions how = options();
   worlds.read.parse();
   if (grid.asked() != at.empty())
@@ -84,7 +84,7 @@ void Project::run(const CLI::App& command) const {
   std::optional<MapShape> shape;
   if (grid.asked()) {
     for (const char* option : {"--to", "--depth", "--coverage"})
-      if (command.count(option) > 0)
+      if (command.option(option).given())
         throw UsageError(
             fmt::format("{}: doesn't go with --grid, whose probes are octahedral, with distances", option));
     check_extension(out);
@@ -109,50 +109,49 @@ void Project::run(const CLI::App& command) const {
 
 }  // namespace
 
-void add_project(CLI::App& app) {
+void add_project(Command app) {
   auto project = std::make_shared<Project>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.add_command(
       "project", "Make a map of what a place in a scene sees all around, or atlases of a grid of places");
   command
-      ->add_option("SCENE", project->scene, "glTF or OBJ to read, or a built-in scene: `welkin list scenes`")
-      ->required();
-  command->add_option("OUT", project->out, "Map to write; its extension names the format")->required();
-  command->add_option("--at", project->at, "x,y,z: the place");
-  command->add_option("--to", project->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")
-      ->capture_default_str();
-  command->add_option("--size", project->size,
-                      "Size of a chart in texels: N across, or WxH. Default: 1024, faces 256, probes 32");
+      .add_option("SCENE", project->scene, "glTF or OBJ to read, or a built-in scene: `welkin list scenes`")
+      .required();
+  command.add_option("OUT", project->out, "Map to write; its extension names the format").required();
+  command.add_option("--at", project->at, "x,y,z: the place");
+  command.add_option("--to", project->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]").show_default();
+  command.add_option("--size", project->size,
+                     "Size of a chart in texels: N across, or WxH. Default: 1024, faces 256, probes 32");
   std::string names;
   for (const scene::ShadingName& each : scene::shading_names())
     names += (names.empty() ? "" : ", ") + each.name;
   command
-      ->add_option("--shading", project->shading,
-                   "How surfaces are shaded: " + names + ". Without --env, the world is black")
-      ->capture_default_str();
-  command->add_option("--samples", project->samples, "Rays along each axis of a texel")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+      .add_option("--shading", project->shading,
+                  "How surfaces are shaded: " + names + ". Without --env, the world is black")
+      .show_default();
+  command.add_option("--samples", project->samples, "Rays along each axis of a texel")
+      .within(1, 64)
+      .show_default();
   command
-      ->add_option("--depth", project->depth,
-                   "Distances too: none, mean (channel Z), moments (Z, and Z2 of their squares)")
-      ->capture_default_str();
+      .add_option("--depth", project->depth,
+                  "Distances too: none, mean (channel Z), moments (Z, and Z2 of their squares)")
+      .show_default();
   command
-      ->add_option(
+      .add_option(
           "--farthest", project->farthest,
           "Distance that farther ones, and the sky, count as. Default: that of the scene's farthest corner")
-      ->check(finite_number(0));
-  command->add_flag("--coverage", project->coverage, "Channel A: the share that surfaces cover");
-  command->add_flag("--shade-once", project->shade_once,
-                    "Shade each surface once a texel, not for each ray: faster");
-  project->grid.add(*command);
-  project->placed.add_scene(*command);
-  project->worlds.add(*command);
-  project->write.add(*command);
-  add_format(*command, project->format);
-  command->callback([project, command] {
+      .finite(0);
+  command.add_flag("--coverage", project->coverage, "Channel A: the share that surfaces cover");
+  command.add_flag("--shade-once", project->shade_once,
+                   "Shade each surface once a texel, not for each ray: faster");
+  project->grid.add(command);
+  project->placed.add_scene(command);
+  project->worlds.add(command);
+  project->write.add(command);
+  add_format(command, project->format);
+  command.callback([project, command] {
     project->out = output_path(project->out, project->format);
     if (!project->worlds.env.empty()) project->worlds.env = input_path(project->worlds.env);
-    project->run(*command);
+    project->run(command);
   });
 }
 

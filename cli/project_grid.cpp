@@ -62,7 +62,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-void GridFlags::add(CLI::App& command) {
+void GridFlags::add(Command command) {
   command.add_option(
       "--grid", counts,
       "NX,NY,NZ: project at so many places of a grid, into atlases: OUT's name with _radiance, _diffuse… "
@@ -74,15 +74,15 @@ void GridFlags::add(CLI::App& command) {
   command
       .add_option("--layout", layout,
                   "Of the grid's files: welkin, or rtxgi, the textures of NVIDIA's RTXGI-DDGI")
-      ->capture_default_str();
+      .show_default();
   command
       .add_option("--diffuse-size", diffuse_size,
                   "Texels along a side of a probe's diffuse light; 0: none. Default: 8, of rtxgi 6")
-      ->check(CLI::Range(0, 1024));
+      .within(0, 1024);
   command
       .add_option("--depth-size", depth_size,
                   "Texels along a side of a probe's distances; 0: none. Default: 16, of rtxgi 14")
-      ->check(CLI::Range(0, 1024));
+      .within(0, 1024);
   command.add_option("--roughness", roughness, "Of the grid: also GGX at these, 0.25,0.5,1. Default: none");
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
@@ -14,7 +13,7 @@ struct GridFlags {
   std::string counts, box, layout = "welkin", roughness;
   std::optional<int> diffuse_size, depth_size;
 
-  void add(CLI::App& command);
+  void add(Command command);
   bool asked() const { return !counts.empty(); }
   /// Throws UsageError for what only goes with --grid.
   void check_unused() const;

@@ -30,7 +30,7 @@ struct Render {
   AnimationFlags animation;
   IntegratorFlags integrator;
 
-  void run(const CLI::App& command) const;
+  void run(const Command& command) const;
   scene::ShadingOptions shading_options() const;
 };
 
@@ -60,7 +60,7 @@ scene::ShadingOptions Render::shading_options() const {
   return options;
 }
 
-void Render::run(const CLI::App& command) const {
+void Render::run(const Command& command) const {
   check_extension(out);
   worlds.read.parse();
   const bool animated = animation.asked(out);
@@ -104,66 +104,63 @@ void Render::run(const CLI::App& command) const {
 
 }  // namespace
 
-void add_render(CLI::App& app) {
+void add_render(Command app) {
   auto render = std::make_shared<Render>();
-  CLI::App* command =
-      app.add_subcommand("render", "Make a picture of a scene whose surfaces reflect the world of a map");
-  command
-      ->add_option("SCENE", render->scene, "glTF or OBJ to read, or a built-in scene: `welkin list scenes`")
-      ->required();
-  command->add_option("OUT", render->out, "Picture to write")->required();
+  Command command =
+      app.add_command("render", "Make a picture of a scene whose surfaces reflect the world of a map");
+  command.add_option("SCENE", render->scene, "glTF or OBJ to read, or a built-in scene: `welkin list scenes`")
+      .required();
+  command.add_option("OUT", render->out, "Picture to write").required();
   std::string names;
   for (const scene::ShadingName& each : scene::shading_names())
     names += (names.empty() ? "" : ", ") + each.name;
-  command->add_option("--shading", render->shading, "How surfaces are shaded: " + names)
-      ->capture_default_str();
+  command.add_option("--shading", render->shading, "How surfaces are shaded: " + names).show_default();
   command
-      ->add_option(
+      .add_option(
           "--fresnel", render->fresnel,
           "Of mirror and phong: none, add (F·Lm + Ld), share (F·Lm + (1 − F)·Ld), with diffuse light Ld")
-      ->capture_default_str();
-  command->add_option("--eta", render->eta, "Index of refraction of mirror, phong and refraction")
-      ->check(finite_number())
-      ->capture_default_str();
-  command->add_option("--exponent", render->exponent, "Of phong, and of the highlights of chrome")
-      ->check(finite_number())
-      ->capture_default_str();
+      .show_default();
+  command.add_option("--eta", render->eta, "Index of refraction of mirror, phong and refraction")
+      .finite()
+      .show_default();
+  command.add_option("--exponent", render->exponent, "Of phong, and of the highlights of chrome")
+      .finite()
+      .show_default();
   command
-      ->add_option("--brdf", render->brdf,
-                   "Of stack and warped: ggx, ward, table,file=PATH… (`bake --views`)")
-      ->capture_default_str();
-  command->add_option("--views", render->views, "Of warped: from how many directions the ball is baked")
-      ->check(CLI::Range(3, 1000))
-      ->capture_default_str();
-  command->add_option(
+      .add_option("--brdf", render->brdf, "Of stack and warped: ggx, ward, table,file=PATH… (`bake --views`)")
+      .show_default();
+  command.add_option("--views", render->views, "Of warped: from how many directions the ball is baked")
+      .within(3, 1000)
+      .show_default();
+  command.add_option(
       "--ball", render->balls,
       "PICTURE@X,Y,Z: of warped, a square photograph of a ball of the material, its disc filling "
       "the square, seen from that direction, +Y up; three at least");
-  command->add_option("--picture", render->picture,
-                      "Of matcap: a square picture of a ball. Of chrome: its colours, the zenith on top");
-  command->add_flag("--reflected", render->reflected,
-                    "Of matcap: look up by the reflected direction, not the normal");
-  command->add_flag("--quadrilateral", render->quadrilateral,
-                    "Take cones by their four corners, not as ellipses");
-  command->add_flag("--per-vertex", render->per_vertex,
-                    "Find reflected directions at corners of triangles, and interpolate them between");
-  command->add_option("--samples", render->samples, "Rays along each axis of a pixel")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  command->add_flag("--no-background", render->no_background,
-                    "Leave the world out: alpha is the scene's coverage");
-  render->animation.add(*command);
-  render->placed.add(*command);
-  render->worlds.add(*command);
-  render->integrator.add(*command);
-  render->write.add(*command);
-  add_format(*command, render->format);
-  command->callback([render, command] {
+  command.add_option("--picture", render->picture,
+                     "Of matcap: a square picture of a ball. Of chrome: its colours, the zenith on top");
+  command.add_flag("--reflected", render->reflected,
+                   "Of matcap: look up by the reflected direction, not the normal");
+  command.add_flag("--quadrilateral", render->quadrilateral,
+                   "Take cones by their four corners, not as ellipses");
+  command.add_flag("--per-vertex", render->per_vertex,
+                   "Find reflected directions at corners of triangles, and interpolate them between");
+  command.add_option("--samples", render->samples, "Rays along each axis of a pixel")
+      .within(1, 64)
+      .show_default();
+  command.add_flag("--no-background", render->no_background,
+                   "Leave the world out: alpha is the scene's coverage");
+  render->animation.add(command);
+  render->placed.add(command);
+  render->worlds.add(command);
+  render->integrator.add(command);
+  render->write.add(command);
+  add_format(command, render->format);
+  command.callback([render, command] {
     if (render->out == "-" && !render->integrator.compare.empty())
       throw UsageError("--compare: its numbers are on standard output, where OUT can't be as well");
     render->out = output_path(render->out, render->format);
     if (!render->worlds.env.empty()) render->worlds.env = input_path(render->worlds.env);
-    render->run(*command);
+    render->run(command);
   });
 }
 

@@ -25,18 +25,18 @@ struct AnimationFlags::Motion {
   }
 };
 
-void AnimationFlags::add(CLI::App& command) {
+void AnimationFlags::add(Command command) {
   command.add_option("--frames", frames,
                      "Frames to make of an animation: A-B; OUT is numbered: turn_%04d.exr");
   command.add_option("--turntable", turntable, "The scene turns once about its vertical in so many frames")
-      ->check(CLI::Range(1, 1'000'000));
+      .within(1, 1'000'000);
   command.add_option(
       "--move", move,
       "NAME=X,Y,Z:X,Y,Z: an object's way from the first frame to the last. It reflects the scene "
       "around it, projected every so many frames and interpolated between");
   command.add_option("--every", every, "Of --move: frames from one projection to the next")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
+      .within(1, 100'000)
+      .show_default();
   command.add_flag("--resume", resume,
                    "Leave frames alone whose files are complete and were made by the same request");
 }

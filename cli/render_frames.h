@@ -22,7 +22,7 @@ struct AnimationFlags {
   int turntable = 0, every = 10;
   bool resume = false;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Whether there is one; throws UsageError for options of one where there is none.
   bool asked(const std::string& out) const;
   /// Makes and writes all frames of a job; `words` is the command line, which --resume compares.

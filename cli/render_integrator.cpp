@@ -14,35 +14,32 @@
 
 namespace welkin::cli {
 
-void IntegratorFlags::add(CLI::App& command) {
+void IntegratorFlags::add(Command command) {
   command
       .add_option(
           "--integrator", integrator,
           "look-up: surfaces show maps. hybrid: mirrors and glass trace what is near, and show maps where "
           "there is nothing. path: paths of light through all of the scene, by its materials")
-      ->capture_default_str();
-  command.add_option("--paths", paths, "Paths of each pixel")
-      ->check(CLI::Range(1, 1 << 20))
-      ->capture_default_str();
+      .show_default();
+  command.add_option("--paths", paths, "Paths of each pixel").within(1, 1 << 20).show_default();
   command
       .add_option("--depth", depth,
                   "Surfaces at which paths are scattered, or rays of mirrors go on, at most")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
+      .within(0, 100)
+      .show_default();
   command
       .add_option("--sampling", sampling,
                   "How paths find light: mis (both of the others), bsdf (where surfaces scatter), "
                   "light (where the map or a lamp is bright)")
-      ->capture_default_str();
-  command.add_option("--seed", seed, "Another number gives other paths of the same mean")
-      ->capture_default_str();
+      .show_default();
+  command.add_option("--seed", seed, "Another number gives other paths of the same mean").show_default();
   command
       .add_option("--clamp", clamp,
                   "The most radiance of one path: hides bright dots, and darkens. Default: no bound")
-      ->check(finite_number(0));
+      .finite(0);
   command.add_option("--smooth", smooth, "Of hybrid: the largest roughness of surfaces that trace rays")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+      .within(0.0, 1.0)
+      .show_default();
   command.add_option(
       "--compare", compare,
       "Render the truth by paths as well, write both and their difference side by side to this "

@@ -29,7 +29,7 @@ struct IntegratorFlags {
   double clamp = 0, smooth = 0.1;
   bool json = false;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Throws UsageError.
   void check() const;
   bool needs_shading() const { return integrator != "path"; }

@@ -46,7 +46,7 @@ scene::Proxy parse_proxy(const std::string& text) {
 
 }  // namespace
 
-void WorldFlags::add(CLI::App& command) {
+void WorldFlags::add(Command command) {
   command.add_option("--env", env, "Map of the world; may be left out by sketches and normals");
   command.add_option(
       "--chain", chain,
@@ -66,8 +66,8 @@ void WorldFlags::add(CLI::App& command) {
                   "How reflected cones are looked up (docs/look-ups.md): auto (gaussian, or probes in large "
                   "maps), nearest, bilinear, trilinear, "
                   "differential, mirrored, box, sat, probes, ewa, hybrid, gaussian")
-      ->capture_default_str();
-  command.add_option("--exposure", exposure, "Brighten the world by this many stops")->check(finite_number());
+      .show_default();
+  command.add_option("--exposure", exposure, "Brighten the world by this many stops").finite();
   read.add(command);
   read.add_level(command, "Level of the map to take. Default: 0");
 }

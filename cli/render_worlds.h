@@ -16,7 +16,7 @@ struct WorldFlags {
   double exposure = 0;
   ReadFlags read;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Reads all of them. Throws UsageError.
   scene::Worlds load(const scene::Scene& scene) const;
 

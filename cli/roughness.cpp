@@ -59,24 +59,23 @@ void Roughness::run() const {
 
 }  // namespace
 
-void add_roughness(CLI::App& app) {
+void add_roughness(Command app) {
   auto roughness = std::make_shared<Roughness>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.add_command(
       "roughness", "Make the levels of a roughness map, rougher where a normal map's levels lose its bumps");
-  command->add_option("NORMALS", roughness->normals, "Normal map, R G B = (n + 1)/2")->required();
+  command.add_option("NORMALS", roughness->normals, "Normal map, R G B = (n + 1)/2").required();
   command
-      ->add_option("ROUGHNESS", roughness->roughness, "Roughness map of the same size, or a number of 0 to 1")
-      ->required();
-  command->add_option("OUT", roughness->out, "KTX2 or EXR to write, with levels")->required();
-  command->add_option("--scale", roughness->scale, "Of the normals' x and y, as the material has it")
-      ->check(finite_number(0))
-      ->capture_default_str();
-  command->add_flag("--flip-green", roughness->flip_green, "The normal map's green goes down (DirectX)");
-  command->add_option("--levels", roughness->levels, "How many. Default: down to one texel")
-      ->check(CLI::Range(1, 31));
-  roughness->write.add(*command);
-  add_format(*command, roughness->format);
-  command->callback([roughness] {
+      .add_option("ROUGHNESS", roughness->roughness, "Roughness map of the same size, or a number of 0 to 1")
+      .required();
+  command.add_option("OUT", roughness->out, "KTX2 or EXR to write, with levels").required();
+  command.add_option("--scale", roughness->scale, "Of the normals' x and y, as the material has it")
+      .finite(0)
+      .show_default();
+  command.add_flag("--flip-green", roughness->flip_green, "The normal map's green goes down (DirectX)");
+  command.add_option("--levels", roughness->levels, "How many. Default: down to one texel").within(1, 31);
+  roughness->write.add(command);
+  add_format(command, roughness->format);
+  command.callback([roughness] {
     roughness->out = output_path(roughness->out, roughness->format);
     roughness->normals = input_path(roughness->normals);
     roughness->run();

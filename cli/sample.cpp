@@ -95,23 +95,22 @@ void Sample::run() const {
 
 }  // namespace
 
-void add_sample(CLI::App& app) {
+void add_sample(Command app) {
   auto sample = std::make_shared<Sample>();
-  CLI::App* command = app.add_subcommand("sample", "Print a map's radiance along directions, one line each");
-  command->add_option("MAP", sample->map, "Map to read; - is standard input, with --dir")->required();
+  Command command = app.add_command("sample", "Print a map's radiance along directions, one line each");
+  command.add_option("MAP", sample->map, "Map to read; - is standard input, with --dir").required();
   command
-      ->add_option("--dir", sample->directions,
-                   "Directions x,y,z of any length (+Y is up). Without it: lines `x y z` from standard input")
-      ->allow_extra_args();
+      .add_option("--dir", sample->directions,
+                  "Directions x,y,z of any length (+Y is up). Without it: lines `x y z` from standard input")
+      .several_words(true);
   command
-      ->add_option("--level", sample->level,
-                   "Level of the file, or of the map's pyramid where the file has one only; 2.5 is halfway "
-                   "between two")
-      ->check(finite_number(0));
-  command->add_option("--filter", sample->filter, "nearest, bilinear, bicubic, lanczos")
-      ->capture_default_str();
-  sample->read.add(*command);
-  command->callback([sample] {
+      .add_option("--level", sample->level,
+                  "Level of the file, or of the map's pyramid where the file has one only; 2.5 is halfway "
+                  "between two")
+      .finite(0);
+  command.add_option("--filter", sample->filter, "nearest, bilinear, bicubic, lanczos").show_default();
+  sample->read.add(command);
+  command.callback([sample] {
     if (sample->map == "-" && sample->directions.empty())
       throw UsageError("-: standard input holds the map, not the directions: give these with --dir");
     sample->map = input_path(sample->map);

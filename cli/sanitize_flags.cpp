@@ -46,13 +46,13 @@ double largest_of(io::PixelType type, const io::Capabilities& format) {
 
 }  // namespace
 
-void SanitizeFlags::add(CLI::App& command) {
+void SanitizeFlags::add(Command command) {
   command
       .add_flag("--sanitize{fill}", sanitize,
                 "Repair NaN and infinite values. fill (--sanitize alone): both become what is around them; "
                 "clamp: infinite ones become the largest value of the output's type (65504 of half, and of "
                 "float), clamp:VALUE: VALUE, NaN what is around it")
-      ->type_name("[=fill|clamp[:VALUE]]");
+      .placeholder("[=fill|clamp[:VALUE]]");
   command.add_option("--clamp", clamp,
                      "Clamp the input's values to MIN,MAX; either may be left out: ,65504 or 0,");
 }

@@ -11,7 +11,7 @@ namespace welkin::cli {
 struct SanitizeFlags {
   std::string sanitize, clamp;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Whether there is anything to do.
   bool any() const { return !sanitize.empty() || !clamp.empty(); }
   /// `largest`: what infinite values become by default. Throws UsageError.

@@ -96,7 +96,7 @@ Vec3d parse_point(std::string_view option, const std::string& text) {
   return {n[0], n[1], n[2]};
 }
 
-void SceneFlags::add_scene(CLI::App& command) {
+void SceneFlags::add_scene(Command command) {
   command.add_option(
       "--material", material,
       "Properties of all materials: color=R/G/B, metallic, roughness, ior, transmission, "
@@ -107,19 +107,19 @@ void SceneFlags::add_scene(CLI::App& command) {
           "--shadows", shadows,
           "Of the scene's own lights, with --shading material: map (distances on an octahedron), traced, "
           "none; off leaves the lights out")
-      ->capture_default_str();
+      .show_default();
   command.add_option("--triangles", triangles, "About how many triangles a built-in body has")
-      ->check(CLI::Range(64, 10'000'000));
+      .within(64, 10'000'000);
 }
 
-void SceneFlags::add(CLI::App& command) {
+void SceneFlags::add(Command command) {
   add_scene(command);
-  command.add_option("--size", size, "WIDTHxHEIGHT of the picture, pixels")->capture_default_str();
+  command.add_option("--size", size, "WIDTHxHEIGHT of the picture, pixels").show_default();
   command.add_option("--camera", camera,
                      "Which of the scene's cameras, by name or number. Default: the first");
-  command.add_option("--lens", lens, "Lens, as `view --camera` has them")->capture_default_str();
+  command.add_option("--lens", lens, "Lens, as `view --camera` has them").show_default();
   command.add_option("--fov", fov, "Horizontal field of view, degrees. Default: the scene's camera's")
-      ->check(finite_number());
+      .finite();
   command.add_option(
       "--position", position,
       "x,y,z of the camera. Default: the scene's camera; where there is none, or --look is given, "

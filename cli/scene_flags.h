@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,9 +20,9 @@ struct SceneFlags {
   int triangles = 0;
 
   /// All of them.
-  void add(CLI::App& command);
+  void add(Command command);
   /// Of the scene alone.
-  void add_scene(CLI::App& command);
+  void add_scene(Command command);
   /// A file's scene, or a built-in one; `--material` applied, warnings told. Throws UsageError.
   scene::Scene load(const std::string& name) const;
   /// The shading, with the scene's lights, where it is one that they light. Throws UsageError.

@@ -132,38 +132,36 @@ void Sh::run() {
 
 }  // namespace
 
-void add_sh(CLI::App& app) {
+void add_sh(Command app) {
   auto sh = std::make_shared<Sh>();
-  CLI::App* command =
-      app.add_subcommand("sh", "Spherical harmonics of a map's light, or a map of coefficients");
+  Command command = app.add_command("sh", "Spherical harmonics of a map's light, or a map of coefficients");
   command
-      ->add_option("IN", sh->in,
-                   "Map to read, - is standard input; or coefficients: .json, .csv, .txt (Filament's)")
-      ->required();
-  command->add_option("--order", sh->order, "The largest degree. Default: 2, or what the coefficients have")
-      ->check(CLI::Range(0, kMaxDegree));
-  command->add_option(
+      .add_option("IN", sh->in,
+                  "Map to read, - is standard input; or coefficients: .json, .csv, .txt (Filament's)")
+      .required();
+  command.add_option("--order", sh->order, "The largest degree. Default: 2, or what the coefficients have")
+      .within(0, kMaxDegree);
+  command.add_option(
       "--of", sh->of,
       "radiance, irradiance, or what a lobe makes of it: NAME[,PARAMETER=VALUE]. Default: radiance");
-  command->add_option("--window", sh->window, "Let high degrees fade: none, hann, lanczos")
-      ->capture_default_str();
+  command.add_option("--window", sh->window, "Let high degrees fade: none, hann, lanczos").show_default();
   command
-      ->add_option("--deringing", sh->deringing,
-                   "minimal: irradiance, or what --of says, nowhere negative with the least change, each "
-                   "channel for itself; together: with one factor for all channels")
-      ->check(CLI::IsMember({"none", "minimal", "together"}))
-      ->capture_default_str();
-  command->add_option("--rotate", sh->rotate,
-                      "Rotate the world: yaw,pitch,roll in degrees, quaternion w,x,y,z or 9 matrix entries");
-  command->add_flag("--json", sh->json,
-                    "The error, the linear part and the zonal fit as JSON: with the coefficients on standard "
-                    "output, else alone; not on stderr");
-  sh->output.add(*command);
-  sh->read.add(*command);
-  sh->read.add_level(*command, "Level of the file to read. Default: 0");
-  sh->sanitize.add(*command);
-  command->callback([sh, &app] {
-    sh->quiet = app.get_option("--quiet")->count() > 0;
+      .add_option("--deringing", sh->deringing,
+                  "minimal: irradiance, or what --of says, nowhere negative with the least change, each "
+                  "channel for itself; together: with one factor for all channels")
+      .one_of({"none", "minimal", "together"})
+      .show_default();
+  command.add_option("--rotate", sh->rotate,
+                     "Rotate the world: yaw,pitch,roll in degrees, quaternion w,x,y,z or 9 matrix entries");
+  command.add_flag("--json", sh->json,
+                   "The error, the linear part and the zonal fit as JSON: with the coefficients on standard "
+                   "output, else alone; not on stderr");
+  sh->output.add(command);
+  sh->read.add(command);
+  sh->read.add_level(command, "Level of the file to read. Default: 0");
+  sh->sanitize.add(command);
+  command.callback([sh, &app] {
+    sh->quiet = app.option("--quiet").given();
     sh->in = input_path(sh->in);
     sh->run();
   });

@@ -12,7 +12,7 @@ namespace welkin::cli {
 
 using namespace welkin::harmonics;
 
-void ShOutput::add(CLI::App& command) {
+void ShOutput::add(Command command) {
   command.add_option(
       "OUT", out,
       "Coefficients to write: .json, .csv, .h, .txt (Filament's); or a map (.exr…). Default: JSON on "
@@ -23,9 +23,8 @@ void ShOutput::add(CLI::App& command) {
   command.add_option("--convention,--to-convention", convention,
                      "World in which they are looked up: unity, unreal… Default: the basis's own");
   command.add_option("--to", to, "Of a map: its parameterization, NAME[:LAYOUT][,PARAMETER=VALUE]")
-      ->capture_default_str();
-  command.add_option("--size", size, "Of a map: its charts' size in texels: N across, or WxH")
-      ->capture_default_str();
+      .show_default();
+  command.add_option("--size", size, "Of a map: its charts' size in texels: N across, or WxH").show_default();
   command.add_option(
       "--format", format,
       "Format of standard output: json, csv, h, filament, or of a map exr, hdr…; default json");

@@ -12,7 +12,7 @@ struct ShOutput {
   std::string out = "-", format, basis, convention, to = "latlong", size = "256";
   WriteFlags write;
 
-  void add(CLI::App& command);
+  void add(Command command);
   /// Finds out before any work whether it can be written. Throws UsageError, Error.
   void check();
   bool is_text() const;

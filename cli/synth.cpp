@@ -46,46 +46,39 @@ void Synth::run() const {
 
 }  // namespace
 
-void add_synth(CLI::App& app) {
+void add_synth(Command app) {
   auto synth = std::make_shared<Synth>();
-  CLI::App* command = app.add_subcommand("synth", "Make a built-in map: a test card, a studio, a sky…");
+  Command command = app.add_command("synth", "Make a built-in map: a test card, a studio, a sky…");
   std::string names;
   for (const std::string& name : synth::names()) names += (names.empty() ? "" : ", ") + name;
-  command->add_option("NAME", synth->name, names + " (`welkin list maps` describes them)")->required();
+  command.add_option("NAME", synth->name, names + " (`welkin list maps` describes them)").required();
   command
-      ->add_option("OUT", synth->out,
-                   "Map to write; its extension names the format; - is standard output, see --format")
-      ->required();
-  command->add_option("--to", synth->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]")
-      ->capture_default_str();
-  command->add_option("--size", synth->size,
-                      "Size of a chart in texels: N across, or WxH. Default: 1024, faces 256");
-  command->add_option("--convention,--to-convention", synth->convention,
-                      "World of the output: three.js, blender…");
-  command->add_option("--samples", synth->samples, "Samples per texel, squared")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+      .add_option("OUT", synth->out,
+                  "Map to write; its extension names the format; - is standard output, see --format")
+      .required();
+  command.add_option("--to", synth->to, "Parameterization: NAME[:LAYOUT][,PARAMETER=VALUE]").show_default();
+  command.add_option("--size", synth->size,
+                     "Size of a chart in texels: N across, or WxH. Default: 1024, faces 256");
+  command.add_option("--convention,--to-convention", synth->convention,
+                     "World of the output: three.js, blender…");
+  command.add_option("--samples", synth->samples, "Samples per texel, squared").within(1, 64).show_default();
   auto& o = synth->options;
-  command->add_option("--seed", o.seed, "lamps: seed of the random numbers")
-      ->check(finite_number(0))
-      ->capture_default_str();
-  command->add_option(
+  command.add_option("--seed", o.seed, "lamps: seed of the random numbers").finite(0).show_default();
+  command.add_option(
       "--frequency", o.frequency,
       "checker: cells around; lines: meridians; zoneplate: cycles per radian at −Z; lamps: how many");
-  command->add_option("--angle", o.angle,
-                      "Degrees. sun, sky: the sun's diameter; lines: their width; lamps: their diameter");
-  command->add_option("--intensity", o.intensity, "sun: its radiance; lamps: their median; others: a factor");
-  command->add_option("--elevation", o.elevation, "sun, sky: elevation of the sun, degrees")
-      ->capture_default_str();
-  command->add_option("--azimuth", o.azimuth, "sun, sky: azimuth of the sun, degrees from +Z toward +X")
-      ->capture_default_str();
-  command->add_option("--background", o.background, "sun, lamps: radiance around them")
-      ->capture_default_str();
-  command->add_option("--turbidity", o.turbidity, "sky: 2 (clear) to 10 (haze)")->capture_default_str();
-  command->add_option("--albedo", o.albedo, "sky: reflectance of the ground")->capture_default_str();
-  synth->write.add(*command);
-  add_format(*command, synth->format);
-  command->callback([synth] {
+  command.add_option("--angle", o.angle,
+                     "Degrees. sun, sky: the sun's diameter; lines: their width; lamps: their diameter");
+  command.add_option("--intensity", o.intensity, "sun: its radiance; lamps: their median; others: a factor");
+  command.add_option("--elevation", o.elevation, "sun, sky: elevation of the sun, degrees").show_default();
+  command.add_option("--azimuth", o.azimuth, "sun, sky: azimuth of the sun, degrees from +Z toward +X")
+      .show_default();
+  command.add_option("--background", o.background, "sun, lamps: radiance around them").show_default();
+  command.add_option("--turbidity", o.turbidity, "sky: 2 (clear) to 10 (haze)").show_default();
+  command.add_option("--albedo", o.albedo, "sky: reflectance of the ground").show_default();
+  synth->write.add(command);
+  add_format(command, synth->format);
+  command.callback([synth] {
     synth->out = output_path(synth->out, synth->format);
     synth->run();
   });

@@ -31,7 +31,7 @@ struct View {
   ReadFlags read;
   WriteFlags write;
 
-  void run(const CLI::App& command) const;
+  void run(const Command& command) const;
   Camera parse_camera() const;
   Shutter parse_shutter() const;
   ResampleOptions parse_options() const;
@@ -81,7 +81,7 @@ Shutter View::parse_shutter() const {
   return {times[0], times[1]};
 }
 
-void View::run(const CLI::App& command) const {
+void View::run(const Command& command) const {
   read.parse();
   stream.check_unused(command);
   if (!(stream.asked() && out == "-")) check_extension(out);
@@ -125,68 +125,67 @@ void View::run(const CLI::App& command) const {
 
 }  // namespace
 
-void add_view(CLI::App& app) {
+void add_view(Command app) {
   auto view = std::make_shared<View>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.add_command(
       "view", "Make pictures of the world: what a camera at its centre sees, frame by frame where it moves");
-  command->add_option("IN", view->in, "Map to read; with --frames it may be numbered: sky_%04d.exr")
-      ->required();
-  command->add_option("OUT", view->out, "Picture to write; with --frames numbered: view_%04d.png")
-      ->required();
+  command.add_option("IN", view->in, "Map to read; with --frames it may be numbered: sky_%04d.exr")
+      .required();
+  command.add_option("OUT", view->out, "Picture to write; with --frames numbered: view_%04d.png").required();
   command
-      ->add_option("--camera", view->camera,
-                   "Lens: perspective, pannini, stereographic, equidistant, equisolid, orthographic, "
-                   "cylindrical, dome, little-planet, or any parameterization of one chart, each with its "
-                   "parameters: pannini,d=0.5 (`welkin list parameters`)")
-      ->capture_default_str();
-  command->add_option("--size", view->size, "WIDTHxHEIGHT of the picture, pixels")->capture_default_str();
-  command->add_option("--fov", view->fov, "Field of view, degrees. Default: the lens's, of perspective 90")
-      ->check(finite_number());
-  command->add_option("--fov-axis", view->axis, "What --fov measures: horizontal, vertical, diagonal")
-      ->capture_default_str();
-  command->add_option("--look", view->look,
-                      "YAW,PITCH,ROLL, degrees: to the right, up, and tilted to the right of 0,0,0, which is "
-                      "the centre of a lat-long");
-  command->add_option(
+      .add_option("--camera", view->camera,
+                  "Lens: perspective, pannini, stereographic, equidistant, equisolid, orthographic, "
+                  "cylindrical, dome, little-planet, or any parameterization of one chart, each with its "
+                  "parameters: pannini,d=0.5 (`welkin list parameters`)")
+      .show_default();
+  command.add_option("--size", view->size, "WIDTHxHEIGHT of the picture, pixels").show_default();
+  command.add_option("--fov", view->fov, "Field of view, degrees. Default: the lens's, of perspective 90")
+      .finite();
+  command.add_option("--fov-axis", view->axis, "What --fov measures: horizontal, vertical, diagonal")
+      .show_default();
+  command.add_option("--look", view->look,
+                     "YAW,PITCH,ROLL, degrees: to the right, up, and tilted to the right of 0,0,0, which is "
+                     "the centre of a lat-long");
+  command.add_option(
       "--shift", view->shift,
       "X,Y: shift of the picture before the lens to the right and up, in its widths and heights");
-  command->add_option("--filter", view->filter, "auto (antialiased), nearest, bilinear, bicubic, lanczos")
-      ->capture_default_str();
-  command->add_option("--exposure", view->exposure, "Brighten by this many stops")->check(finite_number());
-  command->add_option("--scale", view->scale, "Multiply radiance")->check(finite_number());
-  command->add_option("--fill", view->fill,
-                      "Value, one per channel, where there is nothing to see: outside a dome's disc, or the "
-                      "part of the world that the input shows. Default: 0");
-  command->add_flag("--allow-ringing", view->allow_ringing,
-                    "Leave the overshoot of bicubic and lanczos beside bright lights unclamped");
-  command->add_option(
+  command.add_option("--filter", view->filter, "auto (antialiased), nearest, bilinear, bicubic, lanczos")
+      .show_default();
+  command.add_option("--exposure", view->exposure, "Brighten by this many stops").finite();
+  command.add_option("--scale", view->scale, "Multiply radiance").finite();
+  command.add_option("--fill", view->fill,
+                     "Value, one per channel, where there is nothing to see: outside a dome's disc, or the "
+                     "part of the world that the input shows. Default: 0");
+  command.add_flag("--allow-ringing", view->allow_ringing,
+                   "Leave the overshoot of bicubic and lanczos beside bright lights unclamped");
+  command.add_option(
       "--pair", view->pair,
       "Of an input with two eyes' pictures, both views in one picture: left-right, top-bottom");
-  command->add_option("--frames", view->frames, "Frames to make of an animation: A-B, or one");
-  command->add_option("--path", view->path,
-                      "Key frames of the camera, a table (CSV) or JSON: frame and yaw, pitch, roll, fov");
-  view->read.add(*command);
-  view->read.add_level(*command, "Level of the input to take. Default: 0");
-  view->write.add(*command);
-  add_format(*command, view->format);
-  command->add_option(
+  command.add_option("--frames", view->frames, "Frames to make of an animation: A-B, or one");
+  command.add_option("--path", view->path,
+                     "Key frames of the camera, a table (CSV) or JSON: frame and yaw, pitch, roll, fov");
+  view->read.add(command);
+  view->read.add_level(command, "Level of the input to take. Default: 0");
+  view->write.add(command);
+  add_format(command, view->format);
+  command.add_option(
       "--shutter", view->shutter,
       "OPEN,CLOSE in frames, as 0,0.5: blur the motion of --path between these times from each frame on");
   command
-      ->add_option("--samples", view->samples,
-                   "With --shutter: positions of the camera that are averaged. Default: 1.5 for each pixel "
-                   "that is swept")
-      ->check(CLI::Range(1, 1 << 16));
-  command->add_option(
+      .add_option("--samples", view->samples,
+                  "With --shutter: positions of the camera that are averaged. Default: 1.5 for each pixel "
+                  "that is swept")
+      .within(1, 1 << 16);
+  command.add_option(
       "--over", view->over,
       "Picture with alpha to lay over each frame, near objects over the far world; may be numbered: "
       "near_%04d.exr");
-  command->add_flag(
+  command.add_flag(
       "--resume", view->resume,
       "Leave frames alone whose files are complete, were made by the same request, and are newer than "
       "what they are made from");
-  view->stream.add(*command);
-  command->callback([view, command] {
+  view->stream.add(command);
+  command.callback([view, command] {
     const bool streamed = view->stream.asked();
     if (!(streamed && view->out == "-")) view->out = output_path(view->out, view->format);
     if (streamed && view->out == "-" && !view->format.empty())
@@ -194,7 +193,7 @@ void add_view(CLI::App& app) {
     if (streamed && view->out == "-" && io::standard_output_is_terminal())
       throw UsageError("-: standard output is a terminal: redirect it to a file or another program");
     if (!(streamed && view->in == "-")) view->in = input_path(view->in);
-    view->run(*command);
+    view->run(command);
   });
 }
 

@@ -21,7 +21,7 @@ constexpr int kRateUnit = 1000;
 
 }  // namespace
 
-void StreamFlags::add(CLI::App& command) {
+void StreamFlags::add(Command command) {
   command.add_option(
       "--stream", kind,
       "IN and OUT that are - are streams of frames, as ffmpeg pipes them: y4m, ppm, pfm is the kind "
@@ -29,13 +29,13 @@ void StreamFlags::add(CLI::App& command) {
   command.add_option("--rate", rate,
                      "Of a y4m, frames a second: 25, 30000/1001. Default: the input's, or 25");
   command.add_option("--matrix", matrix, "Of a y4m, how colours become Y′CbCr: bt601, bt709, bt2020")
-      ->capture_default_str();
+      .show_default();
 }
 
-void StreamFlags::check_unused(const CLI::App& command) const {
+void StreamFlags::check_unused(const Command& command) const {
   if (asked()) return;
   for (const char* option : {"--rate", "--matrix"}) {
-    if (command.get_option(option)->count() > 0) throw UsageError(std::string(option) + ": is for --stream");
+    if (command.option(option).given()) throw UsageError(std::string(option) + ": is for --stream");
   }
 }
 

@@ -16,10 +16,10 @@ namespace welkin::cli {
 struct StreamFlags {
   std::string kind, rate, matrix = "bt601";
 
-  void add(CLI::App& command);
+  void add(Command command);
   bool asked() const { return !kind.empty(); }
   /// Throws UsageError for those that are given without `--stream`.
-  void check_unused(const CLI::App& command) const;
+  void check_unused(const Command& command) const;
   video::StreamKind parse_kind() const;
   video::StreamColour colour() const;
   /// `25`, `30000/1001`, `29.97`; none: not given.

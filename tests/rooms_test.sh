@@ -126,6 +126,9 @@ while IFS= read -r hit; do
   [[ -n $hit ]] || continue
   [[ ${hit%%:*} == *.h ]] && breach "$(cut -d: -f1,2 <<<"$hit"): belongs in a source file: ${hit#*:*:}"
 done < <(includes '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"](CLI11|CLI/|nlohmann/|fmt/)' src/welkin)
+while IFS=: read -r file line _; do
+  [[ $file == cli/options.cpp || $file == cli/main.cpp ]] || breach "$file:$line: includes CLI11, ten seconds to compile; cli/options.h is for it"
+done < <(includes '^[[:space:]]*#[[:space:]]*include[[:space:]]*<CLI' cli)
 
 while IFS= read -r hit; do
   breach "$(cut -d: -f1,2 <<<"$hit"): a message names an option of the command"

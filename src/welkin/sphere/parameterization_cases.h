@@ -4,26 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
+#include <xsimd/xsimd.hpp>
 
 #include "welkin/sphere/all.h"
 
 /// What the tests of parameterizations share: which ones, at which parameters, and where they are looked at.
 namespace welkin::sphere::cases {
 
+using Pack = xsimd::batch<float>;
+
 /// A parameterization with its one parameter set.
 template <class P, int kParameter>
 struct With : P {
   With() : P(kParameter) {}
-};
-
-template <class List, class... More>
-struct Joined;
-template <class... P, class... More>
-struct Joined<TypeList<P...>, More...> {
-  using Types = ::testing::Types<P..., More...>;
 };
 
 /// A window of the lat-long.
@@ -53,28 +51,49 @@ struct Shifted : P {
   }
 };
 
-/// Every registered parameterization, and those with parameters at a few other values.
-using Cases =
-    Joined<AllParameterizations, With<MirrorBall, 5>, With<MirrorBall, 2>, With<FisheyeEquidistant, 220>,
-           With<FisheyeEquidistant, 360>, With<FisheyeEquisolid, 220>, With<FisheyeEquisolid, 360>,
-           With<FisheyeOrthographic, 120>, With<FisheyeStereographic, 220>, With<FisheyeStereographic, 350>,
-           With<Cylinder, 150>, With<Mercator, 120>, Window<-90, 90, 45, -45>, Window<0, 180, 90, -90>,
-           Window<90, 270, 60, -20>, Window<-180, 180, 30, -60>, Window<0, 360, 90, -90>,
-           Window<37, 38, 61, 60>, Window<-70, 230, 90, 20>, Window<130, 200, -30, -90>, With<Vr180, 220>,
-           With<Vr180, 60>, Shifted<Perspective, 70, true>, Shifted<Pannini, 60, false>,
-           Shifted<Pannini, 120, true>, Shifted<Cylindrical, 120, true>, Shifted<Stereographic, 240, false>,
-           Shifted<Equidistant, 190, false, 230>, Shifted<Equisolid, 330, true, 250>,
-           Shifted<Orthographic, 100, false, 150>, With<Perspective, 150>, With<Pannini, 300>,
-           With<Cylindrical, 360>, With<Equidistant, 360>>::Types;
+/// A parameterization in each kind of number, behind calls: the laws are compiled once, and not for each of
+/// the seventy.
+class Case {
+ public:
+  std::string name;
+  std::string_view kind;  ///< kName
+  int charts = 1;
+  double coverage = 0;
+  bool density_by_row = false;
 
-struct CaseName {
-  template <class P>
-  static std::string GetName(int index) {
-    std::string name = P::kName;
-    for (char& c : name) c = c == '-' ? '_' : c;
-    return name + "_" + std::to_string(index);
-  }
+  virtual ~Case() = default;
+
+  virtual Vec3d to_sphere(int chart, double u, double v) const = 0;
+  virtual Vec3<float> to_sphere(int chart, float u, float v) const = 0;
+  virtual Vec3<Pack> to_sphere(int chart, const Pack& u, const Pack& v) const = 0;
+
+  virtual ChartPoint<double> from_sphere(const Vec3d& d) const = 0;
+  virtual ChartPoint<float> from_sphere(const Vec3<float>& d) const = 0;
+  virtual ChartPoint<Pack> from_sphere(const Vec3<Pack>& d) const = 0;
+
+  virtual bool covers(const Vec3d& d) const = 0;
+  virtual bool covers(const Vec3<float>& d) const = 0;
+  virtual Mask<Pack> covers(const Vec3<Pack>& d) const = 0;
+
+  virtual bool valid(int chart, double u, double v) const = 0;
+  virtual Mask<Pack> valid(int chart, const Pack& u, const Pack& v) const = 0;
+
+  virtual double solid_angle_density(int chart, double u, double v) const = 0;
+  virtual float solid_angle_density(int chart, float u, float v) const = 0;
+  virtual Pack solid_angle_density(int chart, const Pack& u, const Pack& v) const = 0;
 };
+
+/// Every registered parameterization, and those with parameters at a few other values.
+const std::vector<std::unique_ptr<const Case>>& all_cases();
+
+/// Holds a law to each of them; a failure names which.
+template <class Law>
+void for_all(const Law& law) {
+  for (const auto& p : all_cases()) {
+    SCOPED_TRACE(p->name);
+    law(*p);
+  }
+}
 
 struct Position {
   int chart;
@@ -119,23 +138,21 @@ inline std::vector<Vec3d> all_directions() {
 }
 
 /// Random positions of every chart in [low, high]².
-template <class P>
-std::vector<Position> random_positions(int count, double low, double high) {
+inline std::vector<Position> random_positions(int charts, int count, double low, double high) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> along(low, high);
   std::vector<Position> positions;
   for (int i = 0; i < count; ++i) {
     const double u = along(random), v = along(random);
-    positions.push_back({i % P::kCharts, u, v});
+    positions.push_back({i % charts, u, v});
   }
   return positions;
 }
 
 /// A lattice over every chart that stays off all the lines of symmetry where a chart may have a crease.
-template <class P>
-std::vector<Position> lattice_positions(int size) {
+inline std::vector<Position> lattice_positions(int charts, int size) {
   std::vector<Position> positions;
-  for (int chart = 0; chart < P::kCharts; ++chart) {
+  for (int chart = 0; chart < charts; ++chart) {
     for (int i = 0; i < size; ++i) {
       for (int j = 0; j < size; ++j) positions.push_back({chart, (i + 0.37) / size, (j + 0.61) / size});
     }

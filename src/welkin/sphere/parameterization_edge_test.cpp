@@ -8,10 +8,6 @@ namespace {
 
 using namespace cases;
 
-template <class P>
-class ParameterizationEdgeTest : public ::testing::Test {};
-TYPED_TEST_SUITE(ParameterizationEdgeTest, Cases, CaseName);
-
 struct Uv {
   double u, v;
 };
@@ -23,8 +19,7 @@ Uv between(const Uv& a, const Uv& b, double t) {
 /// Walks from a to b in `steps`. Where two neighbours are far apart, halves the step on the side of the
 /// larger jump until it is 1e-12 long; the largest jump that is left. √1e-12 = 1e-6 at the steepest of
 /// singular points.
-template <class P>
-double largest_jump(const P& p, int chart, const Uv& a, const Uv& b, int steps) {
+double largest_jump(const Case& p, int chart, const Uv& a, const Uv& b, int steps) {
   const auto direction = [&](const Uv& at) { return p.to_sphere(chart, at.u, at.v); };
   double largest = 0;
   for (int i = 0; i < steps; ++i) {
@@ -42,54 +37,59 @@ double largest_jump(const P& p, int chart, const Uv& a, const Uv& b, int steps) 
   return largest;
 }
 
-TYPED_TEST(ParameterizationEdgeTest, GoesOnContinuouslyOverTheWholeMargin) {
-  const TypeParam p;
-  for (int chart = 0; chart < TypeParam::kCharts; ++chart) {
-    for (int line = 0; line < 25; ++line) {
-      const double at = -1 + 3 * (line + 0.481) / 25, other = -1 + 3 * (24 - line + 0.253) / 25;
-      ASSERT_LT(largest_jump(p, chart, {-1, at}, {2, at}, 200), 1e-3) << "row " << at << " of " << chart;
-      ASSERT_LT(largest_jump(p, chart, {at, -1}, {at, 2}, 200), 1e-3) << "column " << at << " of " << chart;
-      ASSERT_LT(largest_jump(p, chart, {-1, at}, {2, other}, 200), 1e-3) << "line " << at << " of " << chart;
+TEST(ParameterizationEdge, GoesOnContinuouslyOverTheWholeMargin) {
+  for_all([](const Case& p) {
+    for (int chart = 0; chart < p.charts; ++chart) {
+      for (int line = 0; line < 25; ++line) {
+        const double at = -1 + 3 * (line + 0.481) / 25, other = -1 + 3 * (24 - line + 0.253) / 25;
+        ASSERT_LT(largest_jump(p, chart, {-1, at}, {2, at}, 200), 1e-3) << "row " << at << " of " << chart;
+        ASSERT_LT(largest_jump(p, chart, {at, -1}, {at, 2}, 200), 1e-3) << "column " << at << " of " << chart;
+        ASSERT_LT(largest_jump(p, chart, {-1, at}, {2, other}, 200), 1e-3)
+            << "line " << at << " of " << chart;
+      }
     }
-  }
+  });
 }
 
-TYPED_TEST(ParameterizationEdgeTest, CoveredDirectionsOfTheMarginAreFoundOnAChart) {
-  const TypeParam p;
-  for (const Position& position : random_positions<TypeParam>(20000, -1, 2)) {
-    const Vec3d d = p.to_sphere(position.chart, position.u, position.v);
-    if (!p.covers(d)) continue;
-    const ChartPoint<double> at = p.from_sphere(d);
-    const int chart = static_cast<int>(at.chart);
-    ASSERT_LE(distance(p.to_sphere(chart, at.u, at.v), d), 1e-13 + wobble(p, chart, at.u, at.v, 1e-15));
-    ASSERT_TRUE(at.u >= -1e-12 && at.u <= 1 + 1e-12 && at.v >= -1e-12 && at.v <= 1 + 1e-12)
-        << at.u << " " << at.v;
-  }
+TEST(ParameterizationEdge, CoveredDirectionsOfTheMarginAreFoundOnAChart) {
+  for_all([](const Case& p) {
+    for (const Position& position : random_positions(p.charts, 20000, -1, 2)) {
+      const Vec3d d = p.to_sphere(position.chart, position.u, position.v);
+      if (!p.covers(d)) continue;
+      const ChartPoint<double> at = p.from_sphere(d);
+      const int chart = static_cast<int>(at.chart);
+      ASSERT_LE(distance(p.to_sphere(chart, at.u, at.v), d), 1e-13 + wobble(p, chart, at.u, at.v, 1e-15));
+      ASSERT_TRUE(at.u >= -1e-12 && at.u <= 1 + 1e-12 && at.v >= -1e-12 && at.v <= 1 + 1e-12)
+          << at.u << " " << at.v;
+    }
+  });
 }
 
 /// A step over an edge of the square comes down beside it: the same direction, up to the step, on whatever
 /// chart.
-TYPED_TEST(ParameterizationEdgeTest, AStepOverAnEdgeIsASmallStepOnTheSphere) {
-  const TypeParam p;
-  const double step = 1e-9;
-  for (int chart = 0; chart < TypeParam::kCharts; ++chart) {
-    for (int i = 0; i <= 100; ++i) {
-      const double t = i / 100.0;
-      const Uv outside[] = {{-step, t}, {1 + step, t}, {t, -step}, {t, 1 + step}};
-      const Uv inside[] = {{step, t}, {1 - step, t}, {t, step}, {t, 1 - step}};
-      for (int edge = 0; edge < 4; ++edge) {
-        const Vec3d out = p.to_sphere(chart, outside[edge].u, outside[edge].v);
-        const Vec3d in = p.to_sphere(chart, inside[edge].u, inside[edge].v);
-        // 3e-4: 4 √(2 step), at the rims of the sphere map and the orthographic fish-eye; elsewhere 50 steps.
-        ASSERT_LE(distance(out, in), 3e-4) << "edge " << edge << " at " << t;
-        if (!p.covers(out)) continue;
-        const ChartPoint<double> at = p.from_sphere(out);
-        const int landed = static_cast<int>(at.chart);
-        ASSERT_LE(distance(p.to_sphere(landed, at.u, at.v), out),
-                  1e-13 + wobble(p, landed, at.u, at.v, 1e-15));
+TEST(ParameterizationEdge, AStepOverAnEdgeIsASmallStepOnTheSphere) {
+  for_all([](const Case& p) {
+    const double step = 1e-9;
+    for (int chart = 0; chart < p.charts; ++chart) {
+      for (int i = 0; i <= 100; ++i) {
+        const double t = i / 100.0;
+        const Uv outside[] = {{-step, t}, {1 + step, t}, {t, -step}, {t, 1 + step}};
+        const Uv inside[] = {{step, t}, {1 - step, t}, {t, step}, {t, 1 - step}};
+        for (int edge = 0; edge < 4; ++edge) {
+          const Vec3d out = p.to_sphere(chart, outside[edge].u, outside[edge].v);
+          const Vec3d in = p.to_sphere(chart, inside[edge].u, inside[edge].v);
+          // 3e-4: 4 √(2 step), at the rims of the sphere map and the orthographic fish-eye; elsewhere 50
+          // steps.
+          ASSERT_LE(distance(out, in), 3e-4) << "edge " << edge << " at " << t;
+          if (!p.covers(out)) continue;
+          const ChartPoint<double> at = p.from_sphere(out);
+          const int landed = static_cast<int>(at.chart);
+          ASSERT_LE(distance(p.to_sphere(landed, at.u, at.v), out),
+                    1e-13 + wobble(p, landed, at.u, at.v, 1e-15));
+        }
       }
     }
-  }
+  });
 }
 
 TEST(OctahedralEdges, PositionsPastAnEdgeAreOtherPositionsOfTheMap) {

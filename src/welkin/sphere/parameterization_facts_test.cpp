@@ -57,7 +57,7 @@ TEST(Axes, WindowsArePartsOfTheLatLong) {
               {{{0, 0, -1}, 0, 0.5, 1}, {{-1, 0, 0}, 0, 0, 1}, {{1, 1, 0}, 0, 1, 0.5}});
   expect_rows(Vr180{}, {{{0, 0, 1}, 0, 0.5, 0.5}, {{0, 1, 1}, 0, 0.5, 0.25}, {{-1, 0, 1}, 0, 0.75, 0.5}});
   const auto check = [](const auto& p, double left, double right, double top, double bottom) {
-    for (const Position& at : random_positions<LatLong>(1000, -1, 2)) {
+    for (const Position& at : random_positions(LatLong::kCharts, 1000, -1, 2)) {
       const double u = (180 + left + at.u * (right - left)) / 360,
                    v = (90 - top + at.v * (top - bottom)) / 180;
       ASSERT_LE(distance(p.to_sphere(0, at.u, at.v), LatLong{}.to_sphere(0, u, v)), 3e-15);
@@ -211,7 +211,7 @@ TEST(SphereMap, IsTheLookUpByHalfVector) {
 }
 
 TEST(MirrorBall, FromInfinityIsTheSphereMap) {
-  for (const Position& at : random_positions<MirrorBall>(2000, -1, 2)) {
+  for (const Position& at : random_positions(MirrorBall::kCharts, 2000, -1, 2)) {
     ASSERT_LE(distance(MirrorBall{}.to_sphere(0, at.u, at.v), SphereMap{}.to_sphere(0, at.u, at.v)), 1e-12);
   }
   EXPECT_EQ(MirrorBall{}.blind_angle(), 0);
@@ -222,7 +222,7 @@ TEST(MirrorBall, IsWhatACameraSeesInABall) {
   for (const double far : {1.01, 1.2, 2.0, 5.0, 100.0}) {
     const MirrorBall p(far);
     const double widest = 1 / std::sqrt(far * far - 1);
-    for (const Position& at : random_positions<MirrorBall>(2000, 0, 1)) {
+    for (const Position& at : random_positions(MirrorBall::kCharts, 2000, 0, 1)) {
       if (!p.valid(0, at.u, at.v)) continue;
       const Vec3d camera{0, 0, far};
       const Vec3d ray = normalize(Vec3d{widest * (2 * at.u - 1), widest * (1 - 2 * at.v), -1});
