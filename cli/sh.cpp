@@ -160,7 +160,7 @@ void add_sh(Command app) {
   sh->read.add(command);
   sh->read.add_level(command, "Level of the file to read. Default: 0");
   sh->sanitize.add(command);
-  command.callback([sh, &app] {
+  command.callback([sh, app] {
     sh->quiet = app.option("--quiet").given();
     sh->in = input_path(sh->in);
     sh->run();
