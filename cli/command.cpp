@@ -40,6 +40,13 @@ io::Colour parse_colour(std::string_view option, const std::string& text) {
 
 }  // namespace
 
+std::optional<double> finite_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 std::string printable(std::string text, std::size_t longest) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
@@ -51,7 +58,7 @@ std::string printable(std::string text, std::size_t longest) {
 std::vector<double> parse_numbers(std::string_view option, const std::string& text) {
   std::vector<double> numbers;
   for (const std::string& part : split_list(text)) {
-    const std::optional<double> value = parse_number(part);
+    const std::optional<double> value = finite_number(part);
     if (!value) throw UsageError(fmt::format("{}: '{}' is not a number", option, part));
     numbers.push_back(*value);
   }

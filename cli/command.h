@@ -39,6 +39,9 @@ std::string printable(std::string text, std::size_t longest = 200);
 /// Of warnings, which may name all faces of a cube.
 inline constexpr std::size_t kLongestWarning = 400;
 
+/// A finite number that is all of `text`, but for blanks before it.
+std::optional<double> finite_number(const std::string& text);
+
 /// `1,2.5,-3`: numbers separated by commas. Throws UsageError, naming the option.
 std::vector<double> parse_numbers(std::string_view option, const std::string& text);
 

@@ -3,12 +3,11 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
-#include "welkin/base/number_text.h"
+#include "command.h"
 
 namespace welkin::cli {
 
@@ -54,8 +53,8 @@ Option& Option::positive() {
 
 Option& Option::finite(double minimum) {
   return check([minimum](const std::string& text) -> std::string {
-    const std::optional<double> value = parse_number(text);
-    if (!value || !std::isfinite(*value)) return "'" + text + "' is not a number";
+    const std::optional<double> value = finite_number(text);
+    if (!value) return "'" + text + "' is not a number";
     return *value < minimum ? fmt::format("{} is below {}", text, minimum) : "";
   });
 }
@@ -136,10 +135,6 @@ template Option Command::add_option(const std::string&, std::optional<int>&, con
 template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&);
 template Option Command::add_option(const std::string&, std::optional<std::string>&, const std::string&);
 template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&);
-template Option Command::add_option(const std::string&, std::vector<double>&, const std::string&);
-template Option Command::add_flag(const std::string&, int&, const std::string&);
 template Option Command::add_flag(const std::string&, std::string&, const std::string&);
-template Option Command::add_flag(const std::string&, std::optional<int>&, const std::string&);
-template Option Command::add_flag(const std::string&, std::optional<std::string>&, const std::string&);
 
 }  // namespace welkin::cli

@@ -16,6 +16,7 @@ middle_is() {
 middle_is 0,0,1
 middle_is -1,0,0 --look 90
 middle_is 1,0,0 --look -90,0,0
+middle_is 1,0,0 --look ' -90, 0, 0'
 middle_is 0,0,-1 --look 180
 middle_is 0,1,0 --look 0,90
 middle_is 0,-1,0 --look 0,-90,0

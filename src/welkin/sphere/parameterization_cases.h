@@ -18,12 +18,6 @@ namespace welkin::sphere::cases {
 
 using Pack = xsimd::batch<float>;
 
-/// A parameterization with its one parameter set.
-template <class P, int kParameter>
-struct With : P {
-  With() : P(kParameter) {}
-};
-
 /// A window of the lat-long.
 template <int kLeft, int kRight, int kTop, int kBottom>
 struct Window : LatLongWindow {
@@ -33,21 +27,6 @@ struct Window : LatLongWindow {
     top = kTop;
     bottom = kBottom;
     update();
-  }
-};
-
-/// A frame in which everything is set: an aspect of 1.6, a shift, vertical or diagonal field of view. Of
-/// radial lenses the rim crosses it.
-template <class P, int kFov, bool kDiagonal, int kRim = 0>
-struct Shifted : P {
-  Shifted() {
-    (kDiagonal ? this->dfov : this->vfov) = kFov;
-    this->ratio = 1.6;
-    this->right = 0.21;
-    this->up = -0.13;
-    if (kRim > 0) this->rim = kRim;
-    this->shape = {0.7, kDiagonal ? 0.4 : 0.0};
-    this->update();
   }
 };
 
