@@ -48,6 +48,12 @@ for command in "${commands[@]}"; do
     command -v "$program" >/dev/null || fail "./dev $command runs $program, which is in no package that it installs"
   done
 done
+# More than nine groups are more than ctest's patterns may hold: it would run every test.
+for command in sanitize tsan; do
+  ends 0 ./dev "$command"
+  groups=$(grep '^+ ctest ' "$work/out" | tr -cd '(' | wc -c)
+  ((groups >= 1 && groups <= 9)) || fail "./dev $command: $groups groups in a pattern of ctest"
+done
 ends 0 .ci/run
 grep -q '^+ ctest ' "$work/out" || fail ".ci/run runs no test: $(tail -n 3 "$work/out")"
 unset WELKIN_DRY_RUN

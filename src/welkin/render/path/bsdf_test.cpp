@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -74,6 +75,13 @@ Material velvet(float roughness, float sheen_roughness) {
 
 constexpr double kCosines[] = {1, 0.8, 0.5, 0.2, 0.05};
 
+/// Three numbers of [0, 1), drawn in their order: compilers evaluate arguments in any.
+std::array<double, 3> three(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> u(0, 1);
+  const double first = u(random), second = u(random), third = u(random);
+  return {first, second, third};
+}
+
 /// Wilson & Hilferty 1931: χ² as a standard normal number.
 double normal_of_chi_square(double x, double freedom) {
   const double spread = 2 / (9 * freedom);
@@ -99,7 +107,6 @@ TEST(Bsdf, DrawsHaveTheirDensity) {
   const Material materials[] = {metal(0.5f),       metal(0.6f, 0.8f), dielectric(0.4f),  glass(0.45f),
                                 glass(0.6f, 1.1f), everything(0.5f),  velvet(0.5f, 0.2f)};
   std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> u(0, 1);
   constexpr int kDraws = 40000, kFine = 12;
   for (const Material& material : materials) {
     for (const double cosine : {0.9, 0.3}) {
@@ -122,7 +129,8 @@ TEST(Bsdf, DrawsHaveTheirDensity) {
         EXPECT_LT(all, 1 + 2e-3);
         expected.back() = kDraws * std::max(0.0, 1 - all);
         for (int i = 0; i < kDraws; ++i) {
-          const auto sample = bsdf.sample(u(random), u(random), u(random));
+          const auto [lobe, u1, u2] = three(random);
+          const auto sample = bsdf.sample(lobe, u1, u2);
           ++found[sample ? static_cast<std::size_t>(cell_of(sample->direction)) : expected.size() - 1];
         }
         double statistic = 0, rest_expected = 0, rest_found = 0;
@@ -147,13 +155,13 @@ TEST(Bsdf, DrawsHaveTheirDensity) {
 // What a draw says of itself is what the functions say, at every roughness.
 TEST(Bsdf, DrawsAgreeWithTheFunctions) {
   std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> u(0, 1);
   for (const float roughness : {0.01f, 0.1f, 0.5f, 1.0f}) {
     const Material material = everything(roughness);
     for (const double cosine : kCosines) {
       const Bsdf bsdf(place_of(material, cosine));
       for (int i = 0; i < 500; ++i) {
-        const auto sample = bsdf.sample(u(random), u(random), u(random));
+        const auto [lobe, u1, u2] = three(random);
+        const auto sample = bsdf.sample(lobe, u1, u2);
         if (!sample) continue;
         ASSERT_FALSE(sample->mirror);
         EXPECT_NEAR(length(sample->direction), 1, 1e-12);
@@ -173,13 +181,12 @@ Radiance albedo(const Surface& at, int side) {
   const Bsdf bsdf(at);
   const double eta = at.from_behind ? 1.0 / at.material.material->ior : at.material.material->ior;
   std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> u(0, 1);
   Radiance sum{};
   for (int k = 0; k < side; ++k) {
     for (int j = 0; j < side; ++j) {
       for (int i = 0; i < side; ++i) {
-        const auto sample =
-            bsdf.sample((i + u(random)) / side, (j + u(random)) / side, (k + u(random)) / side);
+        const auto [lobe, u1, u2] = three(random);
+        const auto sample = bsdf.sample((i + lobe) / side, (j + u1) / side, (k + u2) / side);
         if (sample) sum = sum + (sample->through ? eta * eta : 1.0) * sample->weight;
       }
     }
@@ -200,14 +207,15 @@ TEST(Bsdf, WhiteOpaqueMaterialsReflectAllLight) {
   }
 }
 
-// From outside and from inside. At a cosine of .05 the table's steps leave 5e-3.
+// From outside and from inside. With 8e6 draws it is 2e-3, and 5e-3 at a cosine of .05 (the table's steps);
+// 40³ leave that much again.
 TEST(Bsdf, WhiteGlassSplitsAllLight) {
   for (const float roughness : {0.0f, 0.1f, 0.25f, 0.37f, 0.5f, 0.8f, 1.0f}) {
     for (const float ior : {1.1f, 1.5f, 2.4f}) {
       const Material material = glass(roughness, ior);
       for (const double cosine : kCosines) {
         const Surface at = place_of(material, cosine);
-        const double bound = cosine < 0.1 ? 5e-3 : 2e-3;
+        const double bound = cosine < 0.1 ? 1e-2 : 4e-3;
         EXPECT_NEAR(albedo(at, 40)[0], 1, bound) << roughness << ' ' << ior << ' ' << cosine;
         EXPECT_NEAR(albedo(seen_along(at, -1.0 * at.view), 40)[0], 1, bound)
             << roughness << ' ' << ior << ' ' << cosine << " from inside";
@@ -231,7 +239,7 @@ TEST(Bsdf, WhiteBrushedMetalReflectsAllLight) {
   }
 }
 
-// 8000 draws leave 4e-3.
+// With 2e6 draws it is 5e-3; 8000 leave as much again.
 TEST(Bsdf, NothingReflectsMoreThanItGets) {
   for (const float roughness : {0.0f, 0.1f, 0.3f, 0.6f, 1.0f}) {
     Material coated = metal(roughness);
@@ -240,7 +248,7 @@ TEST(Bsdf, NothingReflectsMoreThanItGets) {
     for (const Material& material : {everything(roughness), coated, glass(roughness), metal(roughness, 1),
                                      velvet(0.6f, roughness), velvet(roughness, 0.3f)}) {
       // Facets of one axis show more along some azimuths than the isotropic ones that stand for them.
-      const double bound = material.anisotropy == 1 ? 0.06 : 5e-3;
+      const double bound = material.anisotropy == 1 ? 0.06 : 1e-2;
       for (const double cosine : kCosines) {
         for (const bool behind : {false, true}) {
           Surface at = place_of(material, cosine);
