@@ -97,7 +97,7 @@ Map WorldStream::world(std::span<const std::byte> stored) const {
     map.channel_names = default_channel_names(info().channels);
     map.orientation = orientation_;
     reader_.decode(stored, map.level.chart(0));
-    fill_borders(map);
+    fill_borders(map, RimTexels::measured);
     return map;
   }
   Image frame(info().width, info().height, info().channels);

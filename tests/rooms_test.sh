@@ -134,6 +134,19 @@ while IFS= read -r hit; do
   breach "$(cut -d: -f1,2 <<<"$hit"): a message names an option of the command"
 done < <(grep -rnE --include='*.h' --include='*.cpp' --exclude='*_test.cpp' '"[^"]*--[a-z]' src/welkin | sed -E 's/`[^`]*`//g' | grep -E '"[^"]*--[a-z]')
 
+# Two types of one name in a namespace become one for the linker, which then mixes up their functions.
+while IFS= read -r twice; do breach "$twice"; done < <(
+  find src cli examples bench \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 awk '
+    FNR == 1 { hidden = 0; space = "" }
+    /^namespace \{/ { hidden = 1 }
+    /^namespace [a-z]/ { space = $2 }
+    /^\}  \/\/ namespace$/ { hidden = 0 }
+    !hidden && /^(struct|class) (WELKIN_API )?[A-Za-z0-9_]+( final)?( : .*)? \{/ {
+      type = $2 == "WELKIN_API" ? $3 : $2
+      if ((space, type) in first) print FILENAME ":" FNR ": " space "::" type " is in " first[space, type] " too"
+      first[space, type] = FILENAME
+    }')
+
 while IFS= read -r -d '' file; do
   lines=$(wc -l <"$file")
   if ((lines > longest_file)) && ! head -n 10 "$file" | grep -qi "over $longest_file lines because"; then

@@ -91,13 +91,13 @@ try {
     welkin.make(`welkin bake card.exr ${set}/${words}`);
     const page = readFileSync(join(work, set, "index.html"), "utf8");
     if (set === "filament") welkin.make("welkin convert filament/environment_ibl.ktx filament/specular.ktx2");
-    const { pictures } = await browser.show({ folders: {}, texts: { "/": { type: "text/html", text: page.replace("</html>", `${PROBE}</html>`) } }, seconds: 60 });
+    const { pictures } = await browser.show({ folders: {}, texts: { "/": { type: "text/html", text: page.replace("</html>", `${PROBE}</html>`) } }, seconds: 180 });
     compare(set, page, pictures);
   }
   // From the file itself, where browsers allow less.
   const profile = mkdtempSync(join(tmpdir(), "welkin-viewer-"));
   const shown = execFileSync("chromium", [...OPTIONS, `--user-data-dir=${profile}`, "--virtual-time-budget=3000", "--dump-dom",
-    pathToFileURL(join(resolve(work), "general", "index.html")).href], { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"], timeout: 60000 });
+    pathToFileURL(join(resolve(work), "general", "index.html")).href], { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"], timeout: 180000 });
   rmSync(profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
   if (!/<figure class="viewer" id="viewer">/.test(shown)) wrong.push("opened as a file, the page hides its viewer");
 } finally {

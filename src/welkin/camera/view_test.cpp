@@ -6,6 +6,7 @@
 #include "welkin/camera/camera_cases.h"
 #include "welkin/filter/sampler.h"
 #include "welkin/map/borders.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin {
 namespace {
@@ -39,7 +40,9 @@ TEST(View, ShowsTheWorldInEveryPixel) {
         const double u = (x + 0.5) / picture.width(), v = (y + 0.5) / picture.height();
         const float* found = picture.level.chart(0).at(x, y);
         if (!picture.parameterization.valid(0, u, v)) {
-          EXPECT_EQ(found[0], 0) << lens;
+          if (is_outside_texel(picture.parameterization, {picture.width(), picture.height()}, 0, x, y)) {
+            EXPECT_EQ(found[0], 0) << lens;
+          }
           continue;
         }
         const Vec3d d = transpose(picture.orientation) * picture.parameterization.to_sphere(0, u, v);

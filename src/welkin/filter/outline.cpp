@@ -15,7 +15,9 @@ constexpr double kAside = 7.3e-5;
 /// light may lie within a thousandth of an equal-area map's first row.
 constexpr double kAsideOfChart = 1e-9;
 /// Deviation of a chord from its curve, texels.
-constexpr double kFlat = 0.003;
+constexpr double kFlat = 0.001;
+/// The same along a rim: no neighbour has what a chord cuts off.
+constexpr double kFlatRim = 0.0003;
 /// Of an edge, before what is left of it counts as a jump from one chart to the next.
 constexpr int kDepth = 13;
 /// The same where the parts left of an edge are less than a texel apart: it may grow as a root does.
@@ -91,21 +93,26 @@ Outline::Outline(const AnyParameterization& source, ChartSize source_size, const
 Outline::Position Outline::locate(int chart, double u, double v) const {
   const Vec3d direction = to_source_ * target_.parameterization.to_sphere(chart, u, v);
   const auto position = source_.from_sphere(direction);
-  const bool shown =
-      source_.covers(direction) && (target_full_ || target_.parameterization.valid(chart, u, v));
-  return {u, v, static_cast<int>(position.chart), position.u * width_, position.v * height_, shown};
+  return {u,
+          v,
+          static_cast<int>(position.chart),
+          position.u * width_,
+          position.v * height_,
+          source_.covers(direction)};
 }
 
-bool Outline::follow(int chart, const Position& from, const Position& to, int depth,
+bool Outline::follow(int chart, const Position& from, const Position& to, bool on_rim, int depth,
                      std::vector<Run>& runs) const {
-  const Position middle = locate(chart, 0.5 * (from.u + to.u), 0.5 * (from.v + to.v));
+  const TargetPoint between =
+      on_rim ? rim_between(chart, from, to) : TargetPoint{0.5 * (from.u + to.u), 0.5 * (from.v + to.v)};
+  const Position middle = locate(chart, between.u, between.v);
   if (!middle.shown) return false;
   const bool one_chart = from.chart == to.chart && middle.chart == from.chart;
   // Away from the chord, and uneven along it where that is more than a few texels long.
   const double away_x = middle.x - 0.5 * (from.x + to.x), away_y = middle.y - 0.5 * (from.y + to.y);
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const bool flat =
-      std::max(std::fabs(away_x), std::fabs(away_y)) < kFlat && length < 0.2 * std::min(width_, height_) + 2;
+  const bool flat = std::max(std::fabs(away_x), std::fabs(away_y)) < (on_rim ? kFlatRim : kFlat) &&
+                    length < 0.2 * std::min(width_, height_) + 2;
   if (one_chart && flat) {
     runs.back().points.push_back({to.x, to.y});
     return true;
@@ -116,7 +123,8 @@ bool Outline::follow(int chart, const Position& from, const Position& to, int de
     runs.back().points.push_back({to.x, to.y});
     return true;
   }
-  return follow(chart, from, middle, depth + 1, runs) && follow(chart, middle, to, depth + 1, runs);
+  return follow(chart, from, middle, on_rim, depth + 1, runs) &&
+         follow(chart, middle, to, on_rim, depth + 1, runs);
 }
 
 /// Positions on the chart's edge from its top left corner on, clockwise, 0…4.
@@ -139,33 +147,94 @@ void Outline::add_corners(double from, double length, std::vector<OutlinePoint>&
   }
 }
 
+Outline::TargetPoint Outline::rim_between(int chart, const Position& from, const Position& to) const {
+  const double width = target_.size.width, height = target_.size.height;
+  const double right = (to.u - from.u) * width, down = (to.v - from.v) * height;
+  const double chord = std::hypot(right, down);
+  const TargetPoint middle{0.5 * (from.u + to.u), 0.5 * (from.v + to.v)};
+  if (!(chord > 0)) return middle;
+  const auto at = [&](double away) {
+    return TargetPoint{middle.u + away * down / chord / width, middle.v - away * right / chord / height};
+  };
+  double inside = 0, outside = chord;
+  for (int i = 0; i < 50 && outside > 1e-15; ++i) {
+    const double away = 0.5 * (inside + outside);
+    const TargetPoint point = at(away);
+    (target_.parameterization.valid(chart, point.u, point.v) ? inside : outside) = away;
+  }
+  return at(inside);
+}
+
+bool Outline::clip_to_rim(int chart, std::vector<TargetPoint>& ring, bool& has_rim) const {
+  const auto& p = target_.parameterization;
+  const std::size_t count = ring.size();
+  std::vector<bool> valid(count);
+  for (std::size_t i = 0; i < count; ++i) valid[i] = p.valid(chart, ring[i].u, ring[i].v);
+  std::size_t first = count, entries = 0;
+  const auto find_entries = [&] {
+    entries = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (valid[i] || !valid[(i + 1) % count]) continue;
+      first = i;
+      ++entries;
+    }
+  };
+  find_entries();
+  if (entries > 1) {
+    // Where the rim only just touches an edge.
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i % (count / 4) != 0 && !valid[(i + 1) % count] && !valid[(i + count - 1) % count])
+        valid[i] = false;
+    }
+    find_entries();
+  }
+  if (entries == 0) return valid[0];
+  if (entries > 1) return false;
+  const auto rim = [&](TargetPoint inside, TargetPoint outside) {
+    for (int i = 0; i < 50; ++i) {
+      const TargetPoint middle{0.5 * (inside.u + outside.u), 0.5 * (inside.v + outside.v)};
+      (p.valid(chart, middle.u, middle.v) ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  std::vector<TargetPoint> clipped{rim(ring[(first + 1) % count], ring[first])};
+  std::size_t i = (first + 1) % count;
+  for (; valid[i]; i = (i + 1) % count) clipped.push_back(ring[i]);
+  clipped.push_back(rim(clipped.back(), ring[i]));
+  ring = std::move(clipped);
+  has_rim = true;
+  return true;
+}
+
 bool Outline::trace(int chart, int x, int y, std::vector<OutlineLoop>& loops) const {
   loops.clear();
   const double u[2] = {line(x, target_.size.width), line(x + 1, target_.size.width)},
                v[2] = {line(y, target_.size.height), line(y + 1, target_.size.height)};
-  constexpr int kSteps = 2;  // of an edge, at least
-  std::vector<Run> runs(1);
-  Position start{}, at{};
+  // Of an edge; more where a rim may cross it.
+  const int steps = target_full_ ? 2 : 8;
+  // Clockwise. Both texels at an edge divide it at the same positions.
+  std::vector<TargetPoint> ring;
   for (int edge = 0; edge < 4; ++edge) {
-    // Clockwise. Both texels at an edge divide it at the same positions.
-    const bool right = edge == 0 || edge == 2;
-    for (int step = 0; step < kSteps; ++step) {
-      const double from = static_cast<double>(step) / kSteps, to = static_cast<double>(step + 1) / kSteps;
-      const auto along = [&](double t) {
-        const double s = edge < 2 ? t : 1 - t;
-        const double across = u[0] + s * (u[1] - u[0]), down = v[0] + s * (v[1] - v[0]);
-        return right ? locate(chart, across, edge == 0 ? v[0] : v[1])
-                     : locate(chart, edge == 1 ? u[1] : u[0], down);
-      };
-      if (edge == 0 && step == 0) {
-        start = at = along(from);
-        if (!start.shown) return false;
-        runs[0] = {start.chart, {{start.x, start.y}}};
-      }
-      const Position next = edge == 3 && step == kSteps - 1 ? start : along(to);
-      if (!next.shown || !follow(chart, at, next, 0, runs)) return false;
-      at = next;
+    for (int step = 0; step < steps; ++step) {
+      const double t = static_cast<double>(step) / steps, s = edge < 2 ? t : 1 - t;
+      const double across = u[0] + s * (u[1] - u[0]), down = v[0] + s * (v[1] - v[0]);
+      const bool right = edge == 0 || edge == 2;
+      ring.push_back(right ? TargetPoint{across, edge == 0 ? v[0] : v[1]}
+                           : TargetPoint{edge == 1 ? u[1] : u[0], down});
     }
+  }
+  bool has_rim = false;
+  if (!target_full_ && !clip_to_rim(chart, ring, has_rim)) return false;
+  std::vector<Run> runs(1);
+  const Position start = locate(chart, ring[0].u, ring[0].v);
+  if (!start.shown) return false;
+  runs[0] = {start.chart, {{start.x, start.y}}};
+  Position at = start;
+  for (std::size_t i = 1; i <= ring.size(); ++i) {
+    const Position next = i == ring.size() ? start : locate(chart, ring[i].u, ring[i].v);
+    const bool on_rim = has_rim && i == ring.size();
+    if (!next.shown || !follow(chart, at, next, on_rim, 0, runs)) return false;
+    at = next;
   }
   // The last run goes on in the first, at the corner that both have.
   const bool whole = runs.size() == 1;

@@ -25,8 +25,9 @@ class Outline {
   Outline(const sphere::AnyParameterization& source, ChartSize source_size, const MapFrame& target,
           const Matrix3& to_source);
 
-  /// The parts of the source that a target's texel covers. False where there is no telling: at the rim of a
-  /// disc, where either map ends, and where a texel covers most of a chart.
+  /// The parts of the source that a target's texel covers, of one on the target's rim those that its valid
+  /// part does. False where there is no telling: at the rim of a disc of the source, where either map ends
+  /// otherwise than a disc, and where a texel covers most of a chart.
   bool trace(int chart, int x, int y, std::vector<OutlineLoop>& loops) const;
 
  private:
@@ -34,7 +35,11 @@ class Outline {
     double u, v;  ///< in the target
     int chart;
     double x, y;  ///< in the source, texels
-    bool shown;
+    bool shown;   ///< by the source
+  };
+  /// In the target.
+  struct TargetPoint {
+    double u, v;
   };
   /// A part of an outline that doesn't leave a chart.
   struct Run {
@@ -43,7 +48,15 @@ class Outline {
   };
 
   Position locate(int chart, double u, double v) const;
-  bool follow(int chart, const Position& from, const Position& to, int depth, std::vector<Run>& runs) const;
+  /// By the target's straight lines, or along its rim.
+  bool follow(int chart, const Position& from, const Position& to, bool on_rim, int depth,
+              std::vector<Run>& runs) const;
+  /// Where the rim lies beside the middle of a chord of it, clockwise around what is valid: the middle itself
+  /// where the rim is straight.
+  TargetPoint rim_between(int chart, const Position& from, const Position& to) const;
+  /// Leaves the valid part of a texel's outline; of one that the rim cuts, this leads from its last point to
+  /// its first. False where there is more than one such stretch, or nothing valid.
+  bool clip_to_rim(int chart, std::vector<TargetPoint>& ring, bool& has_rim) const;
   double along_edge(const OutlinePoint& point) const;
   void add_corners(double from, double length, std::vector<OutlinePoint>& points) const;
 

@@ -28,7 +28,7 @@ void walk(double from_a, double from_b, double to_a, double to_b, const Body& bo
 
 }  // namespace
 
-void Overlap::start(int x, int y, int width, int height) {
+void PolygonOverlap::start(int x, int y, int width, int height) {
   x_ = x;
   y_ = y;
   width_ = width;
@@ -39,13 +39,13 @@ void Overlap::start(int x, int y, int width, int height) {
   rows_.assign(static_cast<std::size_t>(height), {width, -1});
 }
 
-double Overlap::stretched(int row, double within) const {
+double PolygonOverlap::stretched(int row, double within) const {
   if (bend_ == nullptr) return within;
   const double bend = static_cast<double>((*bend_)[static_cast<std::size_t>(y_ + row)]);
   return within * (1 - bend + bend * within);
 }
 
-void Overlap::add_edge(double from_x, double from_y, double to_x, double to_y) {
+void PolygonOverlap::add_edge(double from_x, double from_y, double to_x, double to_y) {
   if (from_y == to_y) return;
   walk(from_y - y_, from_x - x_, to_y - y_, to_x - x_,
        [&](int row, double y, double x, double next_y, double next_x) {
@@ -55,14 +55,14 @@ void Overlap::add_edge(double from_x, double from_y, double to_x, double to_y) {
        });
 }
 
-void Overlap::add_row(int row, double from_x, double from_y, double to_x, double to_y) {
+void PolygonOverlap::add_row(int row, double from_x, double from_y, double to_x, double to_y) {
   if (from_y == to_y) return;
   walk(from_x, from_y, to_x, to_y, [&](int column, double x, double y, double next_x, double next_y) {
     add_cell(std::clamp(column, 0, width_ - 1), row, x, y, next_x, next_y);
   });
 }
 
-void Overlap::add_cell(int column, int row, double from_x, double from_y, double to_x, double to_y) {
+void PolygonOverlap::add_cell(int column, int row, double from_x, double from_y, double to_x, double to_y) {
   const std::size_t k = index(column, row);
   Cell& cell = cells_[k];
   if (touched_[k] == 0) {

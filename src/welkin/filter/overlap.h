@@ -16,11 +16,11 @@ struct OverlapMoments {
 /// Adds up a closed polygon's overlaps edge by edge, by Green's theorem: an edge counts for what lies to its
 /// right in its row. So polygons that share an edge divide texels exactly: what one has, the other hasn't.
 /// Positions are in texels; the winding decides the sign.
-class Overlap {
+class PolygonOverlap {
  public:
   /// Rows are stretched where a texel's solid angle is not even from its top to its bottom: `bend[row]`,
   /// −1…1, is the share by which it grows to the bottom from the row's mean. Without, rows are as they are.
-  explicit Overlap(const std::vector<float>* bend = nullptr) : bend_(bend) {}
+  explicit PolygonOverlap(const std::vector<float>* bend = nullptr) : bend_(bend) {}
 
   /// A new polygon, within these texels.
   void start(int x, int y, int width, int height);

@@ -6,7 +6,7 @@
 namespace welkin {
 namespace {
 
-/// Which rows of a lat-long grow towards their bottom, and by how much: Overlap's bend.
+/// Which rows of a lat-long grow towards their bottom, and by how much: PolygonOverlap's bend.
 std::vector<float> bends_of(const sphere::AnyParameterization& p, int height) {
   std::vector<float> bend(static_cast<std::size_t>(height));
   for (int y = 0; y < height; ++y) {

@@ -16,7 +16,7 @@ class OverlapMeans {
   /// What a thread works with.
   struct Work {
     explicit Work(const OverlapMeans& means) : overlap(means.by_row_ ? &means.bend_ : nullptr) {}
-    Overlap overlap;
+    PolygonOverlap overlap;
     ReconstructedTexels few;
     RefinementWork refinement;
     std::vector<double> sum;
@@ -68,7 +68,7 @@ class OverlapMeans {
   const bool reconstructed_;
   const bool full_;               ///< all positions of the source are valid
   const bool by_row_;             ///< texels of a row have one solid angle
-  std::vector<float> bend_;       ///< Overlap's
+  std::vector<float> bend_;       ///< PolygonOverlap's
   std::vector<float> row_angle_;  ///< solid angles of rows, sr
   std::vector<float> bright_;
   Reconstruction how_;

@@ -20,7 +20,7 @@ using Moments = std::map<std::pair<int, int>, OverlapMoments>;
 
 Moments moments_of(const Polygon& polygon, int x, int y, int width, int height,
                    const std::vector<float>* bend = nullptr) {
-  Overlap overlap(bend);
+  PolygonOverlap overlap(bend);
   overlap.start(x, y, width, height);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const OutlinePoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];

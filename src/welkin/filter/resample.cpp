@@ -9,6 +9,7 @@
 #include "welkin/base/parallel.h"
 #include "welkin/filter/resample_job.h"
 #include "welkin/map/borders.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin {
 namespace {
@@ -24,13 +25,12 @@ class CopyMaker final : public TexelMaker {
     copy_walked(job_.source.level.chart(part.chart), part.walk, out);
     const auto& p = job_.target.parameterization;
     if (p.full_charts() || p.filled_to_edges()) return;
-    // The fill in every texel that is not valid.
-    const auto [width, height] = job_.target.size;
+    // The fill in every texel that is not valid anywhere.
     for (int y = 0; y < out.height; ++y) {
       for (int x = 0; x < out.width; ++x) {
-        const double u = (part.walk.image_x(x, y) + 0.5) / width,
-                     v = (part.walk.image_y(x, y) + 0.5) / height;
-        if (!p.valid(part.chart, u, v)) std::copy(job_.fill.begin(), job_.fill.end(), out.at(x, y));
+        if (is_outside_texel(p, job_.target.size, part.chart, part.walk.image_x(x, y),
+                             part.walk.image_y(x, y)))
+          std::copy(job_.fill.begin(), job_.fill.end(), out.at(x, y));
       }
     }
   }
@@ -85,7 +85,7 @@ void resample(const Map& source, Map& target, const ResampleOptions& options) {
         maker->make(part, target.level.chart(part.chart).part(0, part.walk.start_y, target.width(), rows));
       },
       options.monitor);
-  if (options.borders) fill_borders(target);
+  if (options.borders) fill_borders(target, RimTexels::kept);
 }
 
 ChartSize default_chart_size(const Map& map, const sphere::AnyParameterization& parameterization) {

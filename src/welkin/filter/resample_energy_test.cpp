@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "welkin/filter/resample_cases.h"
+#include "welkin/map/borders.h"
 #include "welkin/map/map_cases.h"
 #include "welkin/map/texel_points.h"
 #include "welkin/math/angles.h"
@@ -276,6 +277,27 @@ TEST(ResampleEnergyTest, ASunAtThePoleKeepsItsLight) {
         Map target = make_map(name, size);
         resample(source, target, with(Filter::automatic));
         EXPECT_NEAR(light_of(target) / light_of(source), 1, 1e-3) << name << ' ' << size << ' ' << off;
+      }
+    }
+  }
+}
+
+/// On the rims where discs and triangles meet, which cut texels: each half of a sun is its own picture's.
+TEST(ResampleEnergyTest, ASunOnARimKeepsItsLight) {
+  for (const double elevation : {90.0, 70.0, 45.0, 20.0, 0.0}) {
+    const double angle = elevation * kPi / 180;
+    const Vec3d sun{std::cos(angle), std::sin(angle), 0};
+    Map source(make_map("latlong", 1).parameterization, 512, 256, 1);
+    render(source, [&](const Vec3d& d) { return angle_between(d, sun) < 0.5 * kPi / 180 ? 60000.0 : 0.3; });
+    for (const char* name : {"paraboloid", "octahedral-perspective", "mirror-ball", "angular"}) {
+      for (const int size : {100, 255, 256}) {
+        const auto p = sphere::AnyParameterization::make(name);
+        Map target(p, size, static_cast<int>(std::lround(size / p.aspect())), 1);
+        resample(source, target, with(Filter::automatic));
+        EXPECT_NEAR(light_of(target) / light_of(source), 1, 1e-3) << name << ' ' << size << ' ' << elevation;
+        const double light = light_of(target);
+        fill_borders(target, RimTexels::kept);
+        EXPECT_EQ(light_of(target), light);
       }
     }
   }

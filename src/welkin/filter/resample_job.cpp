@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "welkin/base/error.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin {
 
@@ -93,6 +94,13 @@ const float* Batch::fetch_texels(Fetch kernel, const LevelView& level, int targe
   if (!job_.target_is_full && !job_.target.parameterization.filled_to_edges()) {
     const auto& t = job_.target.parameterization;
     t.kernels().valid(t.self(), target_chart, u, v, mask_, count);
+    const auto [width, height] = job_.target.size;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (mask_[i] > 0) continue;
+      const int x = static_cast<int>(u[i] * static_cast<float>(width)),
+                y = static_cast<int>(v[i] * static_cast<float>(height));
+      if (!is_outside_texel(t, job_.target.size, target_chart, x, y)) mask_[i] = 1;
+    }
     fill_where_zero(mask_, count);
   }
   return pixels_.data();

@@ -59,7 +59,8 @@ class Batch {
   /// The source's values at the positions, channels() for each sample: the fill where the source shows
   /// nothing.
   const float* fetch(Fetch kernel, const LevelView& level, std::size_t count);
-  /// The same with the fill also where the target is not valid, unless it is filled to its edges.
+  /// The same of centres of texels, with the fill also in those that are not valid anywhere in the target,
+  /// unless it is filled to its edges.
   const float* fetch_texels(Fetch kernel, const LevelView& level, int target_chart, std::size_t count);
 
  private:

@@ -27,10 +27,15 @@ constexpr int kLines = kBlock + 1 + 2 * kAround;  ///< of corners
 constexpr double kNarrowest = 8;
 /// The rule of sides where what is seen is uneven, at least.
 constexpr int kUnevenRule = 3;
-/// Parts of a texel's edge that are straight.
-constexpr int kChords = 2;
-/// But for those that are one chord, by how much steps along them change, source texels.
-constexpr float kStraight = 0.03f;
+/// Parts of a texel's edge that are straight, by how much steps along such edges change, source texels: a
+/// chord is off by an eighth of that over the square of their number, at most 0.005.
+int chords_for(float bend) {
+  return bend < 0.03f ? 1 : bend < 0.15f ? 2 : bend < 0.6f ? 4 : 8;
+}
+/// The same of edges that may be traced exactly for the texel on the other side.
+int many_chords_for(float bend) {
+  return bend < 0.005f ? 1 : 8;
+}
 
 class MeanMaker final : public TexelMaker {
  public:
@@ -379,29 +384,28 @@ class MeanMaker final : public TexelMaker {
     const float across = 1.0f / static_cast<float>(job_.target.size.width),
                 down = 1.0f / static_cast<float>(job_.target.size.height);
     constexpr int kCorner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    constexpr int kBetween = kChords - 1;
+    constexpr int kBeside[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
     // Edges are bent, or not, for the texels on both sides.
-    bool straight[4];
-    bool all_straight = true;
+    int chords[4], first[4], points = 0;
     for (int k = 0; k < 4; ++k) {
       const int* a = kCorner[k];
       const int* b = kCorner[(k + 1) % 4];
-      straight[k] = std::max(work.bend[row + kAround + a[1]][column + kAround + a[0]],
-                             work.bend[row + kAround + b[1]][column + kAround + b[0]]) < kStraight;
-      all_straight = all_straight && straight[k];
-    }
-    for (int k = 0; k < 4; ++k) {
-      const int* a = kCorner[k];
-      const int* b = kCorner[(k + 1) % 4];
-      for (int i = 0; i < kBetween; ++i) {
-        const float t = static_cast<float>(i + 1) / kChords;
-        batch.u[k * kBetween + i] =
+      const float bend = std::max(work.bend[row + kAround + a[1]][column + kAround + a[0]],
+                                  work.bend[row + kAround + b[1]][column + kAround + b[0]]);
+      const int beside_x = column + kBeside[k][0], beside_y = row + kBeside[k][1];
+      const bool even = beside_x >= 0 && beside_x < block.width && beside_y >= 0 && beside_y < block.height &&
+                        work.even[beside_y][beside_x] != 0;
+      chords[k] = even ? chords_for(bend) : many_chords_for(bend);
+      first[k] = points;
+      for (int i = 1; i < chords[k]; ++i, ++points) {
+        const float t = static_cast<float>(i) / static_cast<float>(chords[k]);
+        batch.u[points] =
             (static_cast<float>(block.x + column + a[0]) + t * static_cast<float>(b[0] - a[0])) * across;
-        batch.v[k * kBetween + i] =
+        batch.v[points] =
             (static_cast<float>(block.y + row + a[1]) + t * static_cast<float>(b[1] - a[1])) * down;
       }
     }
-    if (!all_straight) batch.locate(block.chart, 4 * kBetween);
+    if (points > 0) batch.locate(block.chart, static_cast<std::size_t>(points));
     work.loops.resize(1);
     OutlineLoop& loop = work.loops[0];
     loop.chart = static_cast<int>(corners.chart[row + kAround][column + kAround]);
@@ -409,8 +413,7 @@ class MeanMaker final : public TexelMaker {
     for (int k = 0; k < 4; ++k) {
       const int r = row + kAround + kCorner[k][1], c = column + kAround + kCorner[k][0];
       loop.points.push_back({static_cast<double>(corners.x[r][c]), static_cast<double>(corners.y[r][c])});
-      for (int i = 0; i < kBetween && !straight[k]; ++i) {
-        const int at = k * kBetween + i;
+      for (int at = first[k]; at < first[k] + chords[k] - 1; ++at) {
         if (static_cast<int>(batch.chart[at]) != loop.chart) continue;
         loop.points.push_back({static_cast<double>(batch.source_u[at]) * means_.size().width,
                                static_cast<double>(batch.source_v[at]) * means_.size().height});

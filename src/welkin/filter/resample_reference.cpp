@@ -3,6 +3,7 @@
 #include "welkin/base/parallel.h"
 #include "welkin/filter/footprint.h"
 #include "welkin/filter/refinement_reference.h"
+#include "welkin/map/texel_points.h"
 
 #include <algorithm>
 #include <array>
@@ -127,7 +128,10 @@ class Reference {
       total += weight;
       for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
     }
-    if (!(total > 0) && p.filled_to_edges()) {
+    // Points are looked up in texels on the rim too.
+    if (!(total > 0) &&
+        (p.filled_to_edges() ||
+         (samples_ == 1 && !is_outside_texel(p, target_.size, place.chart, place.x, place.y)))) {
       look_up(to_source_ * p.to_sphere(place.chart, (place.x + 0.5) / width, (place.y + 0.5) / height), last,
               low, sum);
       total = 1;

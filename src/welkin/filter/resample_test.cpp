@@ -255,7 +255,8 @@ TEST(ResampleTest, PicturesThatGoOnShowTheirDirectionsToTheEdge) {
           for (int i = 0; i < size; ++i) {
             for (const auto& [x, y] : {std::pair{i, 0}, {i, size - 1}, {0, i}, {size - 1, i}}) {
               const Vec3d d = target.parameterization.to_sphere(chart, (x + 0.5) / size, (y + 0.5) / size);
-              EXPECT_NEAR(*target.level.chart(chart).at(x, y), smooth_world(d), 1.5 / size)
+              // Of texels on a rim `automatic` has the mean of the part inside.
+              EXPECT_NEAR(*target.level.chart(chart).at(x, y), smooth_world(d), 2.0 / size)
                   << name << " " << x << "," << y;
             }
           }

@@ -7,6 +7,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/filter/resample_job.h"
+#include "welkin/map/texel_points.h"
 #include "welkin/sphere/kernels.h"
 
 namespace welkin {
@@ -49,7 +50,10 @@ void TexelPositions::locate_row(const Matrix3& to_source, int chart, int y) {
       u[x] = (static_cast<float>(start + std::min(x, count - 1)) + 0.5f) * across;
       v[x] = down;
     }
-    if (!all_valid) to.kernels().valid(to.self(), chart, u, v, valid, n);
+    if (!all_valid) {
+      to.kernels().valid(to.self(), chart, u, v, valid, n);
+      add_rim_texels(to, target_.size, chart, start, y, count, valid);
+    }
     to.kernels().to_sphere(to.self(), chart, u, v, dx, dy, dz, n);
     if (turned) multiply(to_source, dx, dy, dz, sphere::padded(n));
     if (!all_shown) from.kernels().covers(from.self(), dx, dy, dz, shown, n);

@@ -48,12 +48,7 @@ bool TexelSamples::sees_many(int chart, int x, int y) const {
 
 bool TexelSamples::is_outside(int chart, int x, int y) const {
   if (job_.target_is_full) return false;
-  for (int i = 0; i < 9; ++i) {
-    if (job_.target.parameterization.valid(chart, (x + 0.5 * (i % 3)) / job_.target.size.width,
-                                           (y + 0.5 * (i / 3)) / job_.target.size.height))
-      return false;
-  }
-  return true;
+  return is_outside_texel(job_.target.parameterization, job_.target.size, chart, x, y);
 }
 
 bool TexelSamples::misses(int chart, int x, int y, Batch& batch) const {
@@ -98,10 +93,8 @@ void TexelSamples::sample(int chart, int x, int y, Batch& batch, std::vector<dou
     }
     batch.locate(chart, kBatch);
     batch.weigh(chart, kBatch);
-    // Texels by their own value, which keeps their light; but in pictures that go on past their rim, what
-    // is beyond it is looked up, and is to fit.
-    const bool goes_on = huge_ || (source_is_full_ && job_.target.parameterization.filled_to_edges());
-    const float* value = batch.fetch(goes_on ? job_.kernels.bilinear : job_.kernels.nearest, view_, kBatch);
+    // Texels by their own value, which keeps their light.
+    const float* value = batch.fetch(huge_ ? job_.kernels.bilinear : job_.kernels.nearest, view_, kBatch);
     for (int i = 0; i < kBatch; ++i, value += channels) {
       if (!(batch.weight[i] > 0)) continue;
       const double weight = static_cast<double>(batch.weight[i]);

@@ -10,7 +10,7 @@ namespace {
 /// Misfits closer than this are alike: 1.7 % of the texels' values, RMS.
 constexpr double kAlike = 3e-4;
 
-Ellipse ellipse_from(const std::vector<double>& p, double fixed) {
+FittedEllipse ellipse_from(const std::vector<double>& p, double fixed) {
   // Beyond these, neither the texels nor the numbers mean anything.
   const auto axis = [](double logarithm) { return std::exp(std::clamp(logarithm, -4.0, 6.0)); };
   if (p.size() == 2) return {p[0], p[1], fixed, fixed, 0};
@@ -47,12 +47,12 @@ LightPlane::LightPlane(const Vec3d& middle) : middle_(middle) {
   up_ = cross(middle, right_);
 }
 
-PlanePoint LightPlane::point(const Vec3d& d) const {
+FitPoint LightPlane::point(const Vec3d& d) const {
   const double stretch = std::sqrt(2 / std::max(1 + dot(d, middle_), 1e-12));
   return {stretch * dot(d, right_), stretch * dot(d, up_)};
 }
 
-Vec3d LightPlane::direction(const PlanePoint& p) const {
+Vec3d LightPlane::direction(const FitPoint& p) const {
   const double square = std::min(p.x * p.x + p.y * p.y, 4.0), stretch = std::sqrt(1 - square / 4);
   return normalize(stretch * p.x * right_ + stretch * p.y * up_ + (1 - square / 2) * middle_);
 }
@@ -64,13 +64,13 @@ void EllipseFit::begin_texel(double value, double width) {
   squares_ += value * value;
 }
 
-void EllipseFit::add_point(const PlanePoint& point, double weight) {
+void EllipseFit::add_point(const FitPoint& point, double weight) {
   points_.push_back({point.x / side_, point.y / side_, weight});
   weights_.back() += weight;
 }
 
 std::vector<double> EllipseFit::residuals(const Parameters& p, double fixed) const {
-  const Ellipse e = ellipse_from(p, fixed);
+  const FittedEllipse e = ellipse_from(p, fixed);
   const double c = std::cos(e.angle), s = std::sin(e.angle);
   const std::size_t points = static_cast<std::size_t>(parts_ * parts_);
   // How far a point lies inside, of the width that it stands for. Beyond `rim` of the edge, in units of the
@@ -146,18 +146,18 @@ double EllipseFit::fit(Parameters& p, double fixed) const {
   return squares_ > 0 ? misfit / squares_ : 0;
 }
 
-EllipseFit::Result EllipseFit::disc(const Ellipse& start) const {
+EllipseFit::Result EllipseFit::disc(const FittedEllipse& start) const {
   Parameters p{start.x / side_, start.y / side_, std::log(std::max(start.a / side_, 0.1))};
   const double misfit = fit(p, 0);
-  const Ellipse e = ellipse_from(p, 0);
+  const FittedEllipse e = ellipse_from(p, 0);
   return {{e.x * side_, e.y * side_, e.a * side_, e.b * side_, 0}, misfit};
 }
 
-EllipseFit::Result EllipseFit::ellipse(const Ellipse& start) const {
+EllipseFit::Result EllipseFit::ellipse(const FittedEllipse& start) const {
   Parameters p{start.x / side_, start.y / side_, std::log(start.a / side_), std::log(start.b / side_),
                start.angle};
   const double misfit = fit(p, 0);
-  const Ellipse e = ellipse_from(p, 0);
+  const FittedEllipse e = ellipse_from(p, 0);
   return {{e.x * side_, e.y * side_, e.a * side_, e.b * side_, e.angle}, misfit};
 }
 
@@ -167,7 +167,7 @@ EllipseFit::Result EllipseFit::disc_of(const Result& near, double radius) const 
   return {{p[0] * side_, p[1] * side_, radius, radius, 0}, misfit};
 }
 
-std::optional<Ellipse> EllipseFit::largest_alike(const Result& disc) const {
+std::optional<FittedEllipse> EllipseFit::largest_alike(const Result& disc) const {
   const double widest = side_ * std::max(1.0, *std::max_element(widths_.begin(), widths_.end()));
   if (disc.ellipse.a > 1.5 * widest) return std::nullopt;
   const double limit = disc.misfit + kAlike;
@@ -177,7 +177,7 @@ std::optional<Ellipse> EllipseFit::largest_alike(const Result& disc) const {
     const double middle = (fits + misses) / 2;
     (disc_of(disc, middle).misfit <= limit ? fits : misses) = middle;
   }
-  Ellipse largest = disc_of(disc, fits).ellipse;
+  FittedEllipse largest = disc_of(disc, fits).ellipse;
   return largest;
 }
 

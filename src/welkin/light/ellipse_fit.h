@@ -9,12 +9,12 @@
 /// An even ellipse fitted to texels. Internal to light.
 namespace welkin {
 
-struct PlanePoint {
+struct FitPoint {
   double x, y;
 };
 
 /// Half axes a and b, a at `angle` from x toward y.
-struct Ellipse {
+struct FittedEllipse {
   double x = 0, y = 0, a = 0, b = 0, angle = 0;
 };
 
@@ -24,8 +24,8 @@ class LightPlane {
  public:
   explicit LightPlane(const Vec3d& middle);
 
-  PlanePoint point(const Vec3d& d) const;
-  Vec3d direction(const PlanePoint& p) const;
+  FitPoint point(const Vec3d& d) const;
+  Vec3d direction(const FitPoint& p) const;
   const Vec3d& right() const { return right_; }
   const Vec3d& up() const { return up_; }
 
@@ -41,18 +41,18 @@ class EllipseFit {
   /// `width`: its longer side.
   void begin_texel(double value, double width);
   /// `weight`: the solid angle that it stands for, in any unit that is the same for the texel's points.
-  void add_point(const PlanePoint& point, double weight);
+  void add_point(const FitPoint& point, double weight);
 
   struct Result {
-    Ellipse ellipse;
+    FittedEllipse ellipse;
     double misfit = 1;  ///< Σ (texel − fit)² / Σ texel²
   };
-  Result disc(const Ellipse& start) const;
-  Result ellipse(const Ellipse& start) const;
+  Result disc(const FittedEllipse& start) const;
+  Result ellipse(const FittedEllipse& start) const;
 
   /// Where texels don't tell how large the disc is, since a much smaller one fits them as well: the largest
   /// that does.
-  std::optional<Ellipse> largest_alike(const Result& disc) const;
+  std::optional<FittedEllipse> largest_alike(const Result& disc) const;
 
  private:
   /// In texels: x, y, and logarithms of half axes, one or two, and the angle.

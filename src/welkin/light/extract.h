@@ -43,8 +43,8 @@ struct Extraction {
 /// more all around, downhill, for an antialiased rim. Peaks between which luminance falls to half the lower
 /// are two lights. What is above the surroundings, interpolated from the light's rim, is the light's; the
 /// rest stays. So for every channel Σ irradiance (as the map has it: before ExtractedLight::restored) +
-/// residual_energy = energy, to 1e-6; every texel counts with texel_solid_angles. The residual is nowhere
-/// negative where the map isn't. The same numbers whatever the number of threads.
+/// residual_energy = energy, to 1e-6; every texel whose centre is valid counts with texel_solid_angles. The
+/// residual is nowhere negative where the map isn't. The same numbers whatever the number of threads.
 ///
 /// Of a map that shows a part of the sphere, what it doesn't show counts for nothing, in the mean either, and
 /// lights that its end cuts are marked. A black map, and an even one, has no lights.

@@ -75,13 +75,8 @@ class LuminanceOf {
   bool bilinear_;
 };
 
-/// Solid angles of all texels, of their valid parts.
 void solid_angles_of_row(const MapFrame& frame, int chart, int y, float* out) {
-  const auto& p = frame.parameterization;
-  if (p.full_charts()) return texel_solid_angles(p, frame.size.width, frame.size.height, chart, y, out);
-  // Those whose centre isn't valid too.
-  const std::vector<double> row = summed_solid_angles(p, frame.size, chart, y);
-  for (std::size_t x = 0; x < row.size(); ++x) out[x] = static_cast<float>(row[x]);
+  texel_solid_angles(frame.parameterization, frame.size.width, frame.size.height, chart, y, out);
 }
 
 /// Area of the valid part of a texel, over the texel's.

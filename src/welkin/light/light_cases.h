@@ -7,6 +7,7 @@
 
 #include "welkin/map/borders.h"
 #include "welkin/map/map.h"
+#include "welkin/map/texel_points.h"
 #include "welkin/math/angles.h"
 
 /// What the tests and the benchmark of lights share: maps of even discs whose texels are exact to a
@@ -72,8 +73,8 @@ inline std::vector<float> solid_angles_of(const Map& map) {
   const std::size_t width = static_cast<std::size_t>(map.width());
   std::vector<float> omega(width * static_cast<std::size_t>(map.charts() * map.height()));
   for (int row = 0; row < map.charts() * map.height(); ++row) {
-    texel_solid_angles(map.parameterization, map.width(), map.height(), row / map.height(),
-                       row % map.height(), omega.data() + static_cast<std::size_t>(row) * width);
+    centred_solid_angles(map.parameterization, {map.width(), map.height()}, row / map.height(),
+                         row % map.height(), omega.data() + static_cast<std::size_t>(row) * width);
   }
   return omega;
 }

@@ -14,9 +14,9 @@ struct Moments {
 };
 
 /// Half axes of the even ellipse with these second moments (σ² = a²/4), and the angle of the longer.
-Ellipse ellipse_of(const Moments& m) {
+FittedEllipse ellipse_of(const Moments& m) {
   const double mean = (m.xx + m.yy) / 2, half = (m.xx - m.yy) / 2, spread = std::hypot(half, m.xy);
-  Ellipse ellipse;
+  FittedEllipse ellipse;
   ellipse.a = 2 * std::sqrt(std::max(mean + spread, 0.0));
   ellipse.b = 2 * std::sqrt(std::max(mean - spread, 0.0));
   ellipse.angle = std::atan2(m.xy, half) / 2;
@@ -40,7 +40,7 @@ class FormFinder {
   }
 
   LightForm find() const {
-    const Ellipse moments = ellipse_of(second_moments());
+    const FittedEllipse moments = ellipse_of(second_moments());
     const std::vector<Cell> merged = cells();
     if (merged.size() > kFittedCells || 2 * moments.a > kFittedAcross * side_) return form_of(moments);
     return fitted(moments, merged);
@@ -62,15 +62,15 @@ class FormFinder {
   /// means, and their centres stand for them: Sheppard's correction, 1/12 of a texel's side squared.
   Moments second_moments() const {
     Moments m;
-    PlanePoint mean{0, 0};
+    FitPoint mean{0, 0};
     for (const LitTexel& each : texels_) {
       const double weight = each.excess * each.solid_angle / energy_;
-      const PlanePoint p = plane_.point(each.direction);
+      const FitPoint p = plane_.point(each.direction);
       mean = {mean.x + weight * p.x, mean.y + weight * p.y};
       m = {m.xx + weight * p.x * p.x, m.xy + weight * p.x * p.y, m.yy + weight * p.y * p.y};
       for (const bool along_u : {true, false}) {
-        const PlanePoint from = plane_.point(direction_at(each.texel, along_u ? 0 : 0.5, along_u ? 0.5 : 0));
-        const PlanePoint to = plane_.point(direction_at(each.texel, along_u ? 1 : 0.5, along_u ? 0.5 : 1));
+        const FitPoint from = plane_.point(direction_at(each.texel, along_u ? 0 : 0.5, along_u ? 0.5 : 0));
+        const FitPoint to = plane_.point(direction_at(each.texel, along_u ? 1 : 0.5, along_u ? 0.5 : 1));
         const double x = to.x - from.x, y = to.y - from.y;
         m = {m.xx - weight * x * x / 12, m.xy - weight * x * y / 12, m.yy - weight * y * y / 12};
       }
@@ -79,7 +79,7 @@ class FormFinder {
   }
 
   /// Of an ellipse in the plane, which keeps areas.
-  LightForm form_of(const Ellipse& ellipse) const {
+  LightForm form_of(const FittedEllipse& ellipse) const {
     const double a = std::max(ellipse.a, ellipse.b), b = std::max(std::min(ellipse.a, ellipse.b), 1e-9);
     const double angle = ellipse.a >= ellipse.b ? ellipse.angle : ellipse.angle + kPi / 2;
     LightForm form;
@@ -127,7 +127,7 @@ class FormFinder {
     return cells;
   }
 
-  LightForm fitted(const Ellipse& moments, const std::vector<Cell>& cells) const {
+  LightForm fitted(const FittedEllipse& moments, const std::vector<Cell>& cells) const {
     const int parts = cells.size() <= kFewCells ? 10 : 6;
     EllipseFit fit(side_, parts);
     for (const Cell& cell : cells) {
@@ -141,7 +141,7 @@ class FormFinder {
     }
     const double radius = std::max(std::sqrt(moments.a * moments.b), 0.5 * side_);
     const EllipseFit::Result disc = fit.disc({0, 0, radius, radius, 0});
-    if (const std::optional<Ellipse> largest = fit.largest_alike(disc)) {
+    if (const std::optional<FittedEllipse> largest = fit.largest_alike(disc)) {
       LightForm form = form_of(*largest);
       form.direction = plane_.direction({0, 0});
       form.shape = LightShape::point;
@@ -151,7 +151,7 @@ class FormFinder {
     // Few texels that are nearly a disc's are one's, whose rim was sampled coarsely.
     const bool round = moments.a < 2 * side_ && disc.misfit < kRound;
     if (moments.a > kElongated * moments.b && texels_.size() > 8 && !round) {
-      Ellipse start = moments;
+      FittedEllipse start = moments;
       start.a = std::max(start.a, 0.6 * side_);
       start.b = std::max(start.b, 0.4 * side_);
       const EllipseFit::Result ellipse = fit.ellipse(start);

@@ -5,6 +5,7 @@
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
 #include "welkin/map/row_bands.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin {
 
@@ -56,7 +57,7 @@ void MapScan::scan_row(int row, double* sums, double& shown, std::uint64_t& faul
   const int height = map_.height(), channels = map_.channels();
   const std::size_t width = static_cast<std::size_t>(width_);
   std::vector<float> weights(width);
-  texel_solid_angles(map_.parameterization, width_, height, row / height, row % height, weights.data());
+  centred_solid_angles(map_.parameterization, {width_, height}, row / height, row % height, weights.data());
   float* const omega = omega_.data() + static_cast<std::size_t>(row) * (by_row_ ? 1 : width);
   std::copy_n(weights.data(), by_row_ ? 1 : width, omega);
   const float* texel = map_.level.chart(row / height).row(row % height);

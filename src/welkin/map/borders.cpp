@@ -1,6 +1,7 @@
 #include "welkin/map/borders.h"
 
 #include "welkin/base/error.h"
+#include "welkin/map/own_texels.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,9 +19,7 @@ namespace {
 
 using sphere::AnyParameterization;
 
-struct Texel {
-  int chart, x, y;
-};
+using Texel = BorderTexel;
 
 enum class Fill : std::uint8_t { exact, interpolated, unknown };
 
@@ -298,7 +298,7 @@ void repeat_latlong(Level& grid) {
 
 }  // namespace
 
-void fill_borders(const AnyParameterization& p, Level& level) {
+void fill_borders(const AnyParameterization& p, Level& level, RimTexels rim) {
   require(level.charts() == p.charts(), "a level has another number of charts than its parameterization");
   if (repeats_latlong(p, level)) {
     repeat_latlong(level);
@@ -307,6 +307,8 @@ void fill_borders(const AnyParameterization& p, Level& level) {
   std::vector<Texel> texels;
   const bool whole = p.full_charts();
   if (!whole) collect_rim(p, level, texels);
+  std::optional<OwnTexels> own;
+  if (rim != RimTexels::made) own.emplace(p, level, texels);
   collect_borders(level, texels);
 
   const std::size_t channels = static_cast<std::size_t>(level.channels());
@@ -337,10 +339,9 @@ void fill_borders(const AnyParameterization& p, Level& level) {
     if (fills[i] == Fill::interpolated) any_interpolated = true;
   }
   fill_from_neighbours(p, level, whole, known, std::move(missing));
-  if (!any_interpolated) return;
   // The first of these reads the bilinear values of the first pass beside an edge, the second what it has put
   // there.
-  for (int pass = 0; pass < 2; ++pass) {
+  for (int pass = 0; any_interpolated && pass < 2; ++pass) {
     for_all([&](std::size_t i) {
       if (fills[i] != Fill::interpolated) return;
       later_value(level, positions[i], values.data() + i * channels);
@@ -348,6 +349,8 @@ void fill_borders(const AnyParameterization& p, Level& level) {
     });
     scatter();
   }
+  if (own && (rim == RimTexels::kept || own->are_light(level)))
+    own->put_back(level, rim == RimTexels::measured);
 }
 
 }  // namespace welkin

@@ -1,6 +1,9 @@
 #include "welkin/map/borders.h"
 
+#include <limits>
+
 #include "welkin/map/map_cases.h"
+#include "welkin/map/texel_points.h"
 
 namespace welkin {
 namespace {
@@ -172,6 +175,47 @@ TEST(BordersTest, BordersOfOneMapDependOnNoOldOnes) {
       }
     });
   }
+}
+
+/// Texels that a rim cuts, and whose centre lies outside of it, hold what they are said to hold.
+TEST(BordersTest, RimTexelsAreKeptOrMade) {
+  const auto p = sphere::AnyParameterization::make("paraboloid");
+  const auto make = [&](float rim, RimTexels how) {
+    Map map(p, 33, 33, 1);
+    for (int chart = 0; chart < 2; ++chart) {
+      for (int y = 0; y < 33; ++y) {
+        for (int x = 0; x < 33; ++x) {
+          const bool valid = is_valid_texel(map, chart, x, y);
+          *map.level.chart(chart).at(x, y) = valid ? 4 : is_outside_texel(p, {33, 33}, chart, x, y) ? 9 : rim;
+        }
+      }
+    }
+    fill_borders(map, how);
+    std::vector<float> values;
+    for (int chart = 0; chart < 2; ++chart) {
+      for (int y = 0; y < 33; ++y) {
+        for (int x = 0; x < 33; ++x) {
+          if (!is_valid_texel(map, chart, x, y) && !is_outside_texel(p, {33, 33}, chart, x, y))
+            values.push_back(*map.level.chart(chart).at(x, y));
+        }
+      }
+    }
+    return values;
+  };
+  const auto expect = [&](float rim, RimTexels how, float wanted) {
+    const std::vector<float> values = make(rim, how);
+    EXPECT_GT(values.size(), 40u);
+    for (const float value : values) EXPECT_FLOAT_EQ(value, wanted) << rim;
+  };
+  expect(3, RimTexels::kept, 3);
+  expect(0, RimTexels::kept, 0);
+  expect(3, RimTexels::made, 4);
+  // As from a file: light of their own, or a share of black.
+  expect(3.5, RimTexels::measured, 3.5);
+  expect(1, RimTexels::measured, 4);
+  expect(8, RimTexels::measured, 4);
+  expect(0, RimTexels::measured, 4);
+  expect(std::numeric_limits<float>::quiet_NaN(), RimTexels::measured, 4);
 }
 
 }  // namespace

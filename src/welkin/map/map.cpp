@@ -94,7 +94,7 @@ Map Map::from_pixels(const sphere::AnyParameterization& which, std::span<const P
   Map map(which, first.width, first.height, first.channels, PixelContents::unset);
   for (int chart = 0; chart < map.charts(); ++chart)
     copy_pixels(charts[static_cast<std::size_t>(chart)], map.level.chart(chart));
-  fill_borders(map);
+  fill_borders(map, RimTexels::measured);
   return map;
 }
 

@@ -122,7 +122,7 @@ Level reduce(const sphere::AnyParameterization& parameterization, const Level& f
     std::vector<float> weights;
     for (int i = range.begin(); i != range.end(); ++i) reduce_row(i / height, i % height, weights);
   });
-  fill_borders(parameterization, coarser);
+  fill_borders(parameterization, coarser, RimTexels::kept);
   return coarser;
 }
 

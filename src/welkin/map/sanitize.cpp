@@ -259,7 +259,7 @@ SanitizeReport sanitize(Map& map, const SanitizeOptions& options) {
       return true;
     });
   }
-  if (report.filled + report.infinite + report.clamped > 0) fill_borders(map);
+  if (report.filled + report.infinite + report.clamped > 0) fill_borders(map, RimTexels::measured);
   return report;
 }
 

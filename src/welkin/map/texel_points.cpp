@@ -224,6 +224,32 @@ CellLimits texel_limits(const AnyParameterization& p, ChartSize size) {
   return {1e-6 * texel * texel};
 }
 
+bool is_outside_texel(const AnyParameterization& p, ChartSize size, int chart, int x, int y) {
+  alignas(64) float u[32], v[32], valid[32];
+  std::size_t count = 0;
+  const auto at = [&](double across, double down) {
+    u[count] = static_cast<float>((x + across) / size.width);
+    v[count++] = static_cast<float>((y + down) / size.height);
+  };
+  at(0.5, 0.5);
+  for (int k = 0; k < 4; ++k) {
+    at(k % 2, k / 2);
+    at(kGauss[k % 2], kGauss[k / 2]);
+    for (int j = 0; j < 4; ++j) at((k % 2 + kGauss[j % 2]) / 2, (k / 2 + kGauss[j / 2]) / 2);
+  }
+  std::fill(u + count, std::end(u), u[0]);
+  std::fill(v + count, std::end(v), v[0]);
+  p.kernels().valid(p.self(), chart, u, v, valid, count);
+  return std::none_of(valid, valid + count, [](float each) { return each > 0; });
+}
+
+void add_rim_texels(const AnyParameterization& p, ChartSize size, int chart, int x, int y, int count,
+                    float* mask) {
+  for (int i = 0; i < count; ++i) {
+    if (!(mask[i] > 0) && !is_outside_texel(p, size, chart, x + i, y)) mask[i] = 1;
+  }
+}
+
 std::vector<TexelKind> texel_kinds(const AnyParameterization& p, ChartSize size, int chart, int row) {
   const std::size_t width = static_cast<std::size_t>(size.width);
   const bool full = p.full_charts(), by_row = full && p.density_by_row();
@@ -295,7 +321,7 @@ void texel_solid_angles(const AnyParameterization& p, int width, int height, int
   }
   const float area = 1.0f / (static_cast<float>(width) * static_cast<float>(height));
   for (int from = 0; from < width; from += static_cast<int>(kBatch)) {
-    float centre[kBatch] = {}, mean[kBatch] = {}, valid[kBatch] = {}, shown[kBatch] = {};
+    float centre[kBatch] = {}, mean[kBatch] = {}, valid[kBatch] = {};
     std::size_t count = 0;
     float tests = 0;
     const auto test = [&](double across, double down, float* sums, float share) {
@@ -303,17 +329,28 @@ void texel_solid_angles(const AnyParameterization& p, int width, int height, int
       if (!full) tests += 1;
     };
     test(0.5, 0.5, centre, 1);
-    std::copy(std::begin(valid), std::end(valid), std::begin(shown));
     for (int k = 0; k < 4; ++k) {
       if (!full) test(k % 2, k / 2, nullptr, 0);
       test(kGauss[k % 2], kGauss[k / 2], mean, 0.25f);
     }
     for (std::size_t i = 0; i < count; ++i) {
       const int x = from + static_cast<int>(i);
-      const bool outside = !full && shown[i] == 0, cut = !full && valid[i] < tests;
+      const bool outside = !full && valid[i] == 0, cut = !full && valid[i] < tests;
       // NaN is not smooth.
       const bool smooth = std::fabs(mean[i] - centre[i]) <= kSmooth * mean[i];
       out[x] = outside ? 0.0f : !cut && smooth ? mean[i] * area : summed(x);
+    }
+  }
+}
+
+void centred_solid_angles(const AnyParameterization& p, ChartSize size, int chart, int row, float* out) {
+  texel_solid_angles(p, size.width, size.height, chart, row, out);
+  if (p.full_charts()) return;
+  for (int from = 0; from < size.width; from += static_cast<int>(kBatch)) {
+    float valid[kBatch] = {};
+    const std::size_t count = test_row(p, Batch(size, row, from, 0.5, 0.5), chart, nullptr, 0, valid);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (valid[i] == 0) out[from + static_cast<int>(i)] = 0;
     }
   }
 }

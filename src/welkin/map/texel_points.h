@@ -59,11 +59,24 @@ enum class TexelKind : unsigned char {
   irregular,  ///< append_points
 };
 
+/// Whether a texel is not valid anywhere: by at least the points that kinds and solid angles go by.
+bool is_outside_texel(const sphere::AnyParameterization& p, ChartSize size, int chart, int x, int y);
+
+/// Sets to 1 those of `mask` that are 0 but not outside: the masks of `count` texels of a row from x on, 1
+/// where their centres are valid.
+void add_rim_texels(const sphere::AnyParameterization& p, ChartSize size, int chart, int x, int y, int count,
+                    float* mask);
+
 /// The kinds of the texels of a chart's row.
 std::vector<TexelKind> texel_kinds(const sphere::AnyParameterization& p, ChartSize size, int chart, int row);
 
 /// Solid angles of the texels of a chart's row, sr, as the points above have them.
 std::vector<double> summed_solid_angles(const sphere::AnyParameterization& p, ChartSize size, int chart,
                                         int row);
+
+/// texel_solid_angles, but 0 for texels whose centre is not valid: for what looks maps up at centres, where
+/// those show other directions than their own.
+void centred_solid_angles(const sphere::AnyParameterization& p, ChartSize size, int chart, int row,
+                          float* out);
 
 }  // namespace welkin

@@ -6,6 +6,7 @@
 
 #include "welkin/base/error.h"
 #include "welkin/base/parallel.h"
+#include "welkin/map/texel_points.h"
 #include "welkin/map_file/cell_walk.h"
 
 namespace welkin {
@@ -117,7 +118,10 @@ ByteRemap::ByteRemap(const MapFrame& source, const MapFrame& target, const Layou
       from.kernels().covers(from.self(), dx, dy, dz, shown, n);
       from.kernels().from_sphere(from.self(), dx, dy, dz, chart, u, v, n);
       for (int x = 0; x < count; ++x) {
-        if (shown[x] > 0 && (valid[x] > 0 || to.filled_to_edges()))
+        if (!(shown[x] > 0)) continue;
+        if (valid[x] > 0 || to.filled_to_edges() ||
+            !is_outside_texel(to, target.size, cell.chart, walk.image_x(start + x, y),
+                              walk.image_y(start + x, y)))
           row[start + x] = tap_at(source, u[x], v[x], edges[static_cast<std::size_t>(i)]);
       }
     }

@@ -263,7 +263,7 @@ Map MapReader::read() {
         }
       }
   }
-  fill_borders(map);
+  fill_borders(map, RimTexels::measured);
   return map;
 }
 

@@ -11,6 +11,7 @@
 #include "welkin/image/color_ramp.h"
 #include "welkin/map/borders.h"
 #include "welkin/map/row_bands.h"
+#include "welkin/map/texel_points.h"
 #include "welkin/measure/common_channels.h"
 
 namespace welkin {
@@ -163,7 +164,7 @@ class Comparer {
     std::fill(std::begin(covers), std::end(covers), 1.0f);
     for (int row = bands_.first(band); row < bands_.first(band + 1); ++row) {
       const int grid_chart = row / height, grid_y = row % height;
-      texel_solid_angles(grid, width, height, grid_chart, grid_y, weights.data());
+      centred_solid_angles(grid, {width, height}, grid_chart, grid_y, weights.data());
       for (const float weight : weights) covered += static_cast<double>(weight);
       std::fill(std::begin(v), std::end(v), (static_cast<float>(grid_y) + 0.5f) / static_cast<float>(height));
       for (int start = 0; start < width; start += kBatch) {

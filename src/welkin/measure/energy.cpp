@@ -78,7 +78,7 @@ class MapRows {
 
 EnergyFrame energy_frame(const MapFrame& frame, std::vector<int> channels,
                          const std::vector<std::string>& names) {
-  return {frame, std::move(channels), TexelLuminance(names), {}, 0, true, std::nullopt};
+  return {frame, std::move(channels), TexelLuminance(names), {}, 0, std::nullopt};
 }
 
 /// Gives each frame the cones of the lights. `turns` takes directions of the lights' world to the frame's
@@ -174,7 +174,7 @@ double EnergyComparison::change_of_lights() const {
 class EnergyMeter::Model {
  public:
   Model(const Map& before, const MapFrame& after, const std::vector<std::string>& names,
-        const EnergyOptions& options, bool rim)
+        const EnergyOptions& options)
       : after_(energy_frame(after, {}, names)),
         texel_channels_(static_cast<int>(names.size())),
         rows_(static_cast<std::size_t>(after.parameterization.charts() * after.size.height)),
@@ -189,7 +189,6 @@ class EnergyMeter::Model {
     const Matrix3 to_after = after.orientation * options.rotation,
                   between = to_after * transpose(before.orientation);
     EnergyFrame source = energy_frame(before, channels, before.channel_names);
-    after_.rim = rim;
     source.other = shown_by(after.parameterization, between);
     after_.other = shown_by(before.parameterization, transpose(between));
     MapRows rows(source, before, options.monitor);
@@ -242,7 +241,7 @@ EnergyMeter::EnergyMeter(const Map& before, const MapFrame& after, const std::ve
                          const EnergyOptions& options) {
   before.check();
   require(is_orthonormal(options.rotation), "a world is turned by a rotation or a reflection");
-  model_ = std::make_unique<Model>(before, after, channels, options, false);
+  model_ = std::make_unique<Model>(before, after, channels, options);
 }
 EnergyMeter::~EnergyMeter() = default;
 EnergyMeter::EnergyMeter(EnergyMeter&&) noexcept = default;
@@ -262,7 +261,7 @@ EnergyComparison compare_energy(const Map& before, const Map& after, const Energ
   require(is_orthonormal(options.rotation), "a world is turned by a rotation or a reflection");
   EnergyOptions first = options;
   first.monitor = part_of(options.monitor, 0, 0.5);
-  EnergyMeter::Model model(before, after, after.channel_names, first, true);
+  EnergyMeter::Model model(before, after, after.channel_names, first);
   parallel_for(
       after.charts() * after.height(),
       [&](int i) {

@@ -106,9 +106,7 @@ struct EnergyComparison {
 WELKIN_API EnergyComparison compare_energy(const Map& before, const Map& after,
                                            const EnergyOptions& options = {});
 
-/// compare_energy of a map that is made row by row and never in memory as a whole. Texels whose centre lies
-/// outside a disc don't count, since such rows may hold anything there; the whole is as if they were like the
-/// others.
+/// compare_energy of a map that is made row by row and never in memory as a whole.
 class WELKIN_API EnergyMeter {
  public:
   /// Measures the first map, which may go afterwards. `channels` are the names of the second's. Throws as

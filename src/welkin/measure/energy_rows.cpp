@@ -98,28 +98,10 @@ class CommonPart {
   Directions directions_;
 };
 
-/// Solid angles of a row's texels, sr: of their valid part, with `rim` also where their centre isn't valid,
-/// as on the rim of a disc. Such texels hold what lies beside them (fill_borders).
-std::vector<float> solid_angles(const MapFrame& frame, int chart, int y, bool rim) {
-  const auto& p = frame.parameterization;
-  const int width = frame.size.width, height = frame.size.height;
-  std::vector<float> omega(static_cast<std::size_t>(width));
-  texel_solid_angles(p, width, height, chart, y, omega.data());
-  if (!rim || p.full_charts()) return omega;
-  std::vector<TexelPoint> points;
-  for (int x = 0; x < width; ++x) {
-    float& each = omega[static_cast<std::size_t>(x)];
-    if (each > 0) continue;
-    const auto corner = [&](int right, int down) {
-      return p.valid(chart, static_cast<double>(x + right) / width, static_cast<double>(y + down) / height);
-    };
-    if (!corner(0, 0) && !corner(1, 0) && !corner(0, 1) && !corner(1, 1)) continue;
-    points.clear();
-    append_points(p, texel_cell(frame.size, chart, x, y), texel_limits(p, frame.size), points);
-    double sum = 0;
-    for (const TexelPoint& point : points) sum += point.solid_angle;
-    each = static_cast<float>(sum);
-  }
+/// Solid angles of a row's texels, sr.
+std::vector<float> solid_angles(const MapFrame& frame, int chart, int y) {
+  std::vector<float> omega(static_cast<std::size_t>(frame.size.width));
+  texel_solid_angles(frame.parameterization, frame.size.width, frame.size.height, chart, y, omega.data());
   return omega;
 }
 
@@ -252,7 +234,7 @@ std::vector<float> EnergyFrame::weights(int chart, int y, bool exact) const {
   if (!exact && p.full_charts() && !p.density_by_row() && std::min(width, height) >= kLargeChart) {
     omega = centre_solid_angles(frame, chart, y);
   } else {
-    omega = solid_angles(frame, chart, y, rim);
+    omega = solid_angles(frame, chart, y);
   }
   if (!other) return omega;
   const std::vector<double> parts = CommonPart(frame, *other).of_row(chart, y);
@@ -281,7 +263,7 @@ RowSums EnergyFrame::whole(int chart, int y, const float* texels, int texel_chan
   row.solid_angle = row.common;
   if (other) {
     row.solid_angle = 0;
-    for (const float each : solid_angles(frame, chart, y, rim)) row.solid_angle += static_cast<double>(each);
+    for (const float each : solid_angles(frame, chart, y)) row.solid_angle += static_cast<double>(each);
   }
   for (int from = 0; from < width; from += kSegment) {
     const int size = std::min(kSegment, width - from);

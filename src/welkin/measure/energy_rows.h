@@ -51,7 +51,6 @@ struct EnergyFrame {
   TexelLuminance luminance;
   std::vector<Cone> cones;  ///< in the frame's own directions
   double margin = 0;        ///< radians; no texel near a cone is longer
-  bool rim = true;  ///< texels whose centre isn't valid count by their valid part: maps with filled borders
   /// Another map, of which only what it shows counts, and the way from the frame's directions to its own.
   struct Other {
     sphere::AnyParameterization parameterization;
