@@ -48,6 +48,16 @@ std::vector<double> turns_of(const AnyParameterization& p) {
   return turns;
 }
 
+/// Whether a position of a chart is valid and shows no direction that lies elsewhere: maps whose texels'
+/// centres lie on an edge or pole are valid a little beyond it.
+bool is_inside(const AnyParameterization& p, int chart, double u, double v) {
+  if (!p.valid(chart, u, v)) return false;
+  constexpr double kElsewhere = 1e-6;
+  const auto at = p.from_sphere(p.to_sphere(chart, u, v));
+  return static_cast<int>(at.chart) == chart && std::fabs(at.u - u) < kElsewhere &&
+         std::fabs(at.v - v) < kElsewhere;
+}
+
 /// How far from the middle positions are valid along a line of constant v (or u).
 double valid_until(const AnyParameterization& p, bool along_u, double end) {
   const auto valid = [&](double t) { return along_u ? p.valid(0, t, 0.5) : p.valid(0, 0.5, t); };
@@ -160,7 +170,7 @@ Outline::TargetPoint Outline::rim_between(int chart, const Position& from, const
   for (int i = 0; i < 50 && outside > 1e-15; ++i) {
     const double away = 0.5 * (inside + outside);
     const TargetPoint point = at(away);
-    (target_.parameterization.valid(chart, point.u, point.v) ? inside : outside) = away;
+    (is_inside(target_.parameterization, chart, point.u, point.v) ? inside : outside) = away;
   }
   return at(inside);
 }
@@ -169,7 +179,7 @@ bool Outline::clip_to_rim(int chart, std::vector<TargetPoint>& ring, bool& has_r
   const auto& p = target_.parameterization;
   const std::size_t count = ring.size();
   std::vector<bool> valid(count);
-  for (std::size_t i = 0; i < count; ++i) valid[i] = p.valid(chart, ring[i].u, ring[i].v);
+  for (std::size_t i = 0; i < count; ++i) valid[i] = is_inside(p, chart, ring[i].u, ring[i].v);
   std::size_t first = count, entries = 0;
   const auto find_entries = [&] {
     entries = 0;
@@ -193,7 +203,7 @@ bool Outline::clip_to_rim(int chart, std::vector<TargetPoint>& ring, bool& has_r
   const auto rim = [&](TargetPoint inside, TargetPoint outside) {
     for (int i = 0; i < 50; ++i) {
       const TargetPoint middle{0.5 * (inside.u + outside.u), 0.5 * (inside.v + outside.v)};
-      (p.valid(chart, middle.u, middle.v) ? inside : outside) = middle;
+      (is_inside(p, chart, middle.u, middle.v) ? inside : outside) = middle;
     }
     return inside;
   };

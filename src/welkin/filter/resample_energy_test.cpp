@@ -282,14 +282,16 @@ TEST(ResampleEnergyTest, ASunAtThePoleKeepsItsLight) {
   }
 }
 
-/// On the rims where discs and triangles meet, which cut texels: each half of a sun is its own picture's.
+/// On the rims where discs and triangles meet, and on poles and edges that pass through texels' centres: they
+/// cut texels, and each part of a sun is its own picture's.
 TEST(ResampleEnergyTest, ASunOnARimKeepsItsLight) {
   for (const double elevation : {90.0, 70.0, 45.0, 20.0, 0.0}) {
     const double angle = elevation * kPi / 180;
     const Vec3d sun{std::cos(angle), std::sin(angle), 0};
     Map source(make_map("latlong", 1).parameterization, 512, 256, 1);
     render(source, [&](const Vec3d& d) { return angle_between(d, sun) < 0.5 * kPi / 180 ? 60000.0 : 0.3; });
-    for (const char* name : {"paraboloid", "octahedral-perspective", "mirror-ball", "angular"}) {
+    for (const char* name : {"paraboloid", "octahedral-perspective", "mirror-ball", "angular",
+                             "mitsuba-latlong", "openexr-latlong", "openexr-cube"}) {
       for (const int size : {100, 255, 256}) {
         const auto p = sphere::AnyParameterization::make(name);
         Map target(p, size, static_cast<int>(std::lround(size / p.aspect())), 1);
