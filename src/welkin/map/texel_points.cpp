@@ -232,8 +232,10 @@ bool is_outside_texel(const AnyParameterization& p, ChartSize size, int chart, i
     v[count++] = static_cast<float>((y + down) / size.height);
   };
   at(0.5, 0.5);
+  // What only touches a rim, as the texels beside a straight one do, is outside.
+  constexpr double kAside = 1e-3;
   for (int k = 0; k < 4; ++k) {
-    at(k % 2, k / 2);
+    at(k % 2 == 0 ? kAside : 1 - kAside, k / 2 == 0 ? kAside : 1 - kAside);
     at(kGauss[k % 2], kGauss[k / 2]);
     for (int j = 0; j < 4; ++j) at((k % 2 + kGauss[j % 2]) / 2, (k / 2 + kGauss[j / 2]) / 2);
   }
