@@ -59,7 +59,8 @@ enum class TexelKind : unsigned char {
   irregular,  ///< append_points
 };
 
-/// Whether a texel is not valid anywhere: by at least the points that kinds and solid angles go by.
+/// Whether a texel is not valid at any of 25 points: those that kinds and solid angles go by, its corners a
+/// thousandth of it inward, so that one which only touches a rim is outside.
 bool is_outside_texel(const sphere::AnyParameterization& p, ChartSize size, int chart, int x, int y);
 
 /// Sets to 1 those of `mask` that are 0 but not outside: the masks of `count` texels of a row from x on, 1
