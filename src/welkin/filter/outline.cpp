@@ -14,6 +14,12 @@ constexpr double kAside = 7.3e-5;
 /// The same at the edges of the target's charts, where no neighbour has what is left out: a pole's whole
 /// light may lie within a thousandth of an equal-area map's first row.
 constexpr double kAsideOfChart = 1e-9;
+/// The same at the target's rim, which may lie on a fold or an edge of the source.
+constexpr double kAsideOfRim = 1e-12;
+/// Of what an outline is divided into, where it can be followed: one that lies along an edge changes charts
+/// with every step.
+constexpr std::size_t kMostRuns = 256;
+constexpr int kMostPositions = 1 << 17;
 /// Deviation of a chord from its curve, texels.
 constexpr double kFlat = 0.001;
 /// The same along a rim: no neighbour has what a chord cuts off.
@@ -112,7 +118,9 @@ Outline::Position Outline::locate(int chart, double u, double v) const {
 }
 
 bool Outline::follow(int chart, const Position& from, const Position& to, bool on_rim, int depth,
-                     std::vector<Run>& runs) const {
+                     Followed& followed) const {
+  auto& runs = followed.runs;
+  if (runs.size() > kMostRuns || ++followed.positions > kMostPositions) return false;
   const TargetPoint between =
       on_rim ? rim_between(chart, from, to) : TargetPoint{0.5 * (from.u + to.u), 0.5 * (from.v + to.v)};
   const Position middle = locate(chart, between.u, between.v);
@@ -133,8 +141,8 @@ bool Outline::follow(int chart, const Position& from, const Position& to, bool o
     runs.back().points.push_back({to.x, to.y});
     return true;
   }
-  return follow(chart, from, middle, on_rim, depth + 1, runs) &&
-         follow(chart, middle, to, on_rim, depth + 1, runs);
+  return follow(chart, from, middle, on_rim, depth + 1, followed) &&
+         follow(chart, middle, to, on_rim, depth + 1, followed);
 }
 
 /// Positions on the chart's edge from its top left corner on, clockwise, 0…4.
@@ -172,7 +180,7 @@ Outline::TargetPoint Outline::rim_between(int chart, const Position& from, const
     const TargetPoint point = at(away);
     (is_inside(target_.parameterization, chart, point.u, point.v) ? inside : outside) = away;
   }
-  return at(inside);
+  return at(std::max(0.0, inside - kAsideOfRim * std::min(width, height)));
 }
 
 bool Outline::clip_to_rim(int chart, std::vector<TargetPoint>& ring, bool& has_rim) const {
@@ -200,12 +208,16 @@ bool Outline::clip_to_rim(int chart, std::vector<TargetPoint>& ring, bool& has_r
   }
   if (entries == 0) return valid[0];
   if (entries > 1) return false;
-  const auto rim = [&](TargetPoint inside, TargetPoint outside) {
+  const auto aside = [](double at, double towards) {
+    return at + std::clamp(towards - at, -kAsideOfRim, kAsideOfRim);
+  };
+  const auto rim = [&](TargetPoint from, TargetPoint outside) {
+    TargetPoint inside = from;
     for (int i = 0; i < 50; ++i) {
       const TargetPoint middle{0.5 * (inside.u + outside.u), 0.5 * (inside.v + outside.v)};
       (is_inside(p, chart, middle.u, middle.v) ? inside : outside) = middle;
     }
-    return inside;
+    return TargetPoint{aside(inside.u, from.u), aside(inside.v, from.v)};
   };
   std::vector<TargetPoint> clipped{rim(ring[(first + 1) % count], ring[first])};
   std::size_t i = (first + 1) % count;
@@ -235,7 +247,8 @@ bool Outline::trace(int chart, int x, int y, std::vector<OutlineLoop>& loops) co
   }
   bool has_rim = false;
   if (!target_full_ && !clip_to_rim(chart, ring, has_rim)) return false;
-  std::vector<Run> runs(1);
+  Followed followed{std::vector<Run>(1)};
+  auto& runs = followed.runs;
   const Position start = locate(chart, ring[0].u, ring[0].v);
   if (!start.shown) return false;
   runs[0] = {start.chart, {{start.x, start.y}}};
@@ -243,7 +256,7 @@ bool Outline::trace(int chart, int x, int y, std::vector<OutlineLoop>& loops) co
   for (std::size_t i = 1; i <= ring.size(); ++i) {
     const Position next = i == ring.size() ? start : locate(chart, ring[i].u, ring[i].v);
     const bool on_rim = has_rim && i == ring.size();
-    if (!next.shown || !follow(chart, at, next, on_rim, 0, runs)) return false;
+    if (!next.shown || !follow(chart, at, next, on_rim, 0, followed)) return false;
     at = next;
   }
   // The last run goes on in the first, at the corner that both have.

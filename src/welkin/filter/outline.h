@@ -27,7 +27,8 @@ class Outline {
 
   /// The parts of the source that a target's texel covers, of one on the target's rim those that its valid
   /// part does. False where there is no telling: at the rim of a disc of the source, where either map ends
-  /// otherwise than a disc, and where a texel covers most of a chart.
+  /// otherwise than a disc, where an outline runs along edges of the source's charts, and where a texel
+  /// covers most of a chart.
   bool trace(int chart, int x, int y, std::vector<OutlineLoop>& loops) const;
 
  private:
@@ -47,10 +48,16 @@ class Outline {
     std::vector<OutlinePoint> points;
   };
 
+  /// What there is of an outline so far.
+  struct Followed {
+    std::vector<Run> runs;
+    int positions = 0;  ///< asked for
+  };
+
   Position locate(int chart, double u, double v) const;
   /// By the target's straight lines, or along its rim.
   bool follow(int chart, const Position& from, const Position& to, bool on_rim, int depth,
-              std::vector<Run>& runs) const;
+              Followed& followed) const;
   /// Where the rim lies beside the middle of a chord of it, clockwise around what is valid: the middle itself
   /// where the rim is straight.
   TargetPoint rim_between(int chart, const Position& from, const Position& to) const;
