@@ -27,12 +27,18 @@ inline double kulla_conty_fresnel(double average_fresnel, double average_albedo)
   return average_fresnel * average_fresnel * average_albedo / (1 - average_fresnel * (1 - average_albedo));
 }
 
-/// Reflectance of a metal under even light, scattered once and more often: FssEss + FmsEms with FssEss = f0
-/// scale + f90 bias, Ems = 1 − E, F_avg = f0 + (1 − f0)/21 and FmsEms = FssEss F_avg Ems/(1 − F_avg Ems).
-/// Fdez-Agüera 2019, eq. 9 … 20.
+/// The part of even light that leaves after being scattered more than once: FmsEms = FssEss F_avg Ems/(1 −
+/// F_avg Ems), of what is reflected `once`, FssEss = f0 scale + f90 bias, F_avg = f0 + (f90 − f0)/21, and
+/// what a white surface loses, Ems = 1 − E. Below 1. Fdez-Agüera 2019, eq. 18 … 20.
+inline double fdez_aguera_again(double once, double average_fresnel, double lost) {
+  return once * average_fresnel * lost / (1 - average_fresnel * lost);
+}
+
+/// Reflectance of a metal under even light, scattered once and more often: FssEss + FmsEms. Fdez-Agüera 2019,
+/// eq. 9 … 20.
 inline double fdez_aguera_reflectance(const SplitSum& sum, double f0, double f90 = 1) {
-  const double once = sum.reflectance(f0, f90), lost = 1 - sum.one, mean = average_fresnel(f0);
-  return once + once * mean * lost / (1 - mean * lost);
+  const double once = sum.reflectance(f0, f90);
+  return once + fdez_aguera_again(once, average_fresnel(f0), 1 - sum.one);
 }
 
 /// What the single-scattering BRDF is multiplied by: 1 + f0 (1/E − 1). Turquin 2019, eq. 16.

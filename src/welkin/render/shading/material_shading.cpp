@@ -109,7 +109,7 @@ Rgb MaterialShading::mixed(const Surface& at, const Layers& layers, std::size_t 
     const double f0 = dielectric + material.metallic * (base - dielectric);
     const double once = sum.reflectance(f0, f90);
     // What is scattered twice and more leaves along all directions, like diffuse light.
-    const double mean = brdf::average_fresnel(f0, f90), often = once * mean * missing / (1 - mean * missing);
+    const double often = brdf::fdez_aguera_again(once, brdf::average_fresnel(f0, f90), missing);
     const double under = std::max(0.0, 1 - once - often) * (1 - material.metallic);
     const double passed = under * material.transmission * base;
     const double scattered = under * (1 - material.transmission) * base + often;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "welkin/base/error.h"
+#include "welkin/brdf/brdf.h"
 #include "welkin/render/render_cases.h"
 #include "welkin/render/shading/sphere_pictures.h"
 #include "welkin/render/shading/texture_coordinates.h"
@@ -96,17 +97,79 @@ TEST(Globe, IsBetweenDiffuseAndMirror) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(globe[c], 0.75 * diffuse[c] + 0.25 * mirror[c], 1e-5);
 }
 
-// The stack of GGX without Fresnel's factor is what `material` shows of a white metal, where lobes are
-// narrow.
-TEST(Stack, AgreesWithSplitSumsAtNormalIncidence) {
+// The integral of the BRDF over the map's texels, and what its albedo lacks of 1 as diffuse light.
+TEST(Stack, AgreesWithTheIntegralAlongTheNormal) {
+  const Map map = synth_map("studio");
   const World world(synth_map("studio"));
-  Material material;
-  material.metallic = 1;
-  material.roughness = 0.35f;
-  const Surface at = facing({0.2, 0.3, 0.9}, {0.2, 0.3, 0.9}, material);
-  const Rgb stack = shaded(*make_shading("stack", {world}), at),
-            split = shaded(*make_shading("material", {world}), at);
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(stack[c], split[c], 0.03 * split[c]);
+  const Vec3d normal = normalize(Vec3d{0.2, 0.3, 0.9}), right = normalize(cross(normal, Vec3d{0, 1, 0})),
+              up = cross(right, normal);
+  const auto stack = make_shading("stack", {world});
+  // Roughnesses that are baked, of lobes wider than a few texels.
+  for (const float roughness : {0.35f, 0.6f, 1.0f}) {
+    const auto ggx = brdf::AnyBrdf::make("ggx").with_roughness(static_cast<double>(roughness));
+    double once = 0, albedo = 0, diffuse = 0;
+    for (int y = 0; y < map.height(); ++y) {
+      std::vector<float> solid_angles(static_cast<std::size_t>(map.width()));
+      texel_solid_angles(map.parameterization, map.width(), map.height(), 0, y, solid_angles.data());
+      for (int x = 0; x < map.width(); ++x) {
+        const Vec3d d = map.parameterization.to_sphere(0, (x + 0.5) / map.width(), (y + 0.5) / map.height());
+        if (dot(d, normal) <= 0) continue;
+        const double part = static_cast<double>(solid_angles[static_cast<std::size_t>(x)]) * dot(d, normal),
+                     reflected = ggx.value({0, 0, 1}, {dot(d, right), dot(d, up), dot(d, normal)}) * part;
+        const double radiance = *map.level.chart(0).at(x, y);
+        once += reflected * radiance;
+        albedo += reflected;
+        diffuse += radiance * part / kPi;
+      }
+    }
+    Material metal;
+    metal.metallic = 1;
+    metal.roughness = roughness;
+    const double seen = shaded(*stack, facing(normal, normal, metal))[0];
+    EXPECT_NEAR(seen, once + (1 - albedo) * diffuse, 0.02 * seen) << roughness;
+  }
+}
+
+/// What a metal of this colour and roughness sends a viewer at an angle in radians.
+float seen_of_metal(const Shading& shading, float base, float roughness, double angle) {
+  Material metal;
+  metal.metallic = 1;
+  metal.base_color = {base, base, base};
+  metal.roughness = roughness;
+  return shaded(shading, facing({0, 0, 1}, {std::sin(angle), 0, std::cos(angle)}, metal))[0];
+}
+
+// White furnace: what GGX's facets scatter more than once is added, of white metals all that was lost.
+TEST(Stack, WhiteMetalsKeepTheLight) {
+  const World world = constant_world(1);
+  ShadingOptions half;
+  half.brdf = "ggx,roughness=0.5";
+  const auto stack = make_shading("stack", {world}), warped = make_shading("warped", {world}, half);
+  for (const double angle : {0.0, 0.7, 1.3}) {
+    // Between the roughnesses that were baked, albedo is linear.
+    for (const float roughness : {0.0f, 0.35f, 0.5f, 0.8f, 1.0f})
+      EXPECT_NEAR(seen_of_metal(*stack, 1, roughness, angle), 1, 0.02) << roughness << " " << angle;
+    EXPECT_NEAR(seen_of_metal(*warped, 1, 0.5f, angle), 1, 0.02) << angle;
+  }
+}
+
+// Along the normal, where Fresnel's factor, which a stack has not, does least.
+TEST(Stack, ColouredMetalsAreNearThoseOfMaterial) {
+  const World world = constant_world(1);
+  const auto stack = make_shading("stack", {world}), material = make_shading("material", {world});
+  for (const float roughness : {0.0f, 0.5f, 1.0f})
+    EXPECT_NEAR(seen_of_metal(*stack, 0.5f, roughness, 0), seen_of_metal(*material, 0.5f, roughness, 0),
+                0.02);
+}
+
+// Ward's BRDF isn't one of facets.
+TEST(Stack, OthersThanGgxAreAsTheirBrdfSays) {
+  const World world = constant_world(1);
+  ShadingOptions options;
+  options.brdf = "ward,roughness=1";
+  const double albedo = seen_of_metal(*make_shading("stack", {world}, options), 1, 1, 0);
+  EXPECT_LT(albedo, 0.9);
+  EXPECT_GT(albedo, 0.1);
 }
 
 // A cone over all elevations sees the table's mean; a narrow one its own elevation.
