@@ -111,7 +111,7 @@ void Sh::run() {
   const std::vector<double> zonal =
       convolve ? factors(degree) : std::vector<double>(static_cast<std::size_t>(degree) + 1, 1.0);
   found = convolved(found, window_factors(window_from_name(window), degree));
-  ShReport report{of == "radiance" ? "irradiance" : of, found, {}, {}};
+  ShReport report{of == "radiance" ? "irradiance" : of, found, {}, 0, {}};
   if (deringing != "none") {
     report.deringing =
         dering(found, zonal, deringing == "minimal" ? DeringChannels::each : DeringChannels::together);
@@ -119,7 +119,9 @@ void Sh::run() {
   }
   if (map) {
     const int high = std::max(degree, std::clamp(2 * degree + 16, kLeastReference, kMostReference));
-    report.error = error_of(found, reference_of(*map, whole, high, progress_monitor("sh")), factors(high));
+    const SphericalHarmonics reference = reference_of(*map, whole, high, progress_monitor("sh"));
+    report.error = error_of(found, reference, factors(high));
+    report.beyond = most_beyond(*map, reference, factors(high));
     end_progress();
   }
   if (!json && !quiet) print(in, report);

@@ -34,6 +34,7 @@ ordered_json json_of(const ShReport& report) {
   ordered_json result{{"of", report.of}};
   if (report.error) {
     result["relative_rmse"] = report.error->relative_rmse;
+    result["relative_rmse_beyond"] = report.beyond;
     for (const Extremum& least : report.error->minima) result["minima"].push_back(least.value);
     result["minimum"] = report.error->minima[least_of(*report.error)].value;
     result["minimum_direction"] = json_of(report.error->minima[least_of(*report.error)].direction);
@@ -60,11 +61,17 @@ void print(const std::string& in, const ShReport& report) {
   if (report.error) {
     const std::size_t c = least_of(*report.error);
     const Extremum& least = report.error->minima[c];
+    // Their squares add up: less than this changes what is told by less than a fiftieth.
+    const std::string beyond =
+        report.beyond > 0.2 * report.error->relative_rmse
+            ? fmt::format(" and of higher degrees at most {:.2g} %", 100 * report.beyond)
+            : "";
     text += fmt::format(
-        "welkin: {}: {}: relative RMSE {:.4g} %, least value {:.4g} ({}, mean {:.4g}) along "
+        "welkin: {}: {}: relative RMSE {:.4g} %{}, least value {:.4g} ({}, mean {:.4g}) along "
         "{:.3f},{:.3f},{:.3f}\n",
-        in, report.of, 100 * report.error->relative_rmse, least.value, report.radiance.channel_names[c],
-        report.error->means[c], least.direction.x, least.direction.y, least.direction.z);
+        in, report.of, 100 * report.error->relative_rmse, beyond, least.value,
+        report.radiance.channel_names[c], report.error->means[c], least.direction.x, least.direction.y,
+        least.direction.z);
   }
   if (report.deringing && report.deringing->change > 0) {
     text += fmt::format("welkin: {}: deringing changes it by {:.4g} %, factors of the degrees", in,

@@ -14,6 +14,7 @@ struct ShReport {
   std::string of;                                  ///< that the error is of: `irradiance`, or a lobe
   harmonics::SphericalHarmonics radiance;          ///< whose linear part and zonal fit are told
   std::optional<harmonics::HarmonicsError> error;  ///< where there was a map
+  double beyond = 0;  ///< the most that degrees which the error leaves out add to its RMSE
   std::optional<harmonics::Deringing> deringing;
 };
 

@@ -38,6 +38,37 @@ HarmonicsError error_of(const SphericalHarmonics& approximation, const Spherical
   return error;
 }
 
+double most_beyond(const Map& map, const SphericalHarmonics& exact, std::span<const double> zonal) {
+  map.check();
+  const double norm = convolved(exact, zonal).norm();
+  std::vector<std::size_t> channels;
+  for (const std::string& name : exact.channel_names) {
+    const auto found = std::find(map.channel_names.begin(), map.channel_names.end(), name);
+    if (found == map.channel_names.end())
+      throw Error(ErrorKind::mismatch, "harmonics of other channels cannot be compared");
+    channels.push_back(static_cast<std::size_t>(found - map.channel_names.begin()));
+  }
+  double square = 0;
+  std::vector<float> solid_angles(static_cast<std::size_t>(map.width()));
+  for (int chart = 0; chart < map.charts(); ++chart) {
+    for (int y = 0; y < map.height(); ++y) {
+      texel_solid_angles(map.parameterization, map.width(), map.height(), chart, y, solid_angles.data());
+      const float* texel = map.level.chart(chart).row(y);
+      for (const float solid_angle : solid_angles) {
+        double sum = 0;
+        for (const std::size_t c : channels)
+          sum += static_cast<double>(texel[c]) * static_cast<double>(texel[c]);
+        if (solid_angle > 0) square += static_cast<double>(solid_angle) * sum;
+        texel += map.channels();
+      }
+    }
+  }
+  const auto degree = static_cast<std::size_t>(exact.degree());
+  const double factor = std::max(std::fabs(zonal[degree]), degree > 0 ? std::fabs(zonal[degree - 1]) : 0);
+  const double rest = std::max(0.0, square - exact.norm() * exact.norm());
+  return rest > 0 && norm > 0 ? factor * std::sqrt(rest) / norm : 0;
+}
+
 SphericalHarmonics reference_of(const Map& map, const SphericalHarmonics& known, int degree,
                                 const Monitor& monitor) {
   map.check();

@@ -26,6 +26,12 @@ struct HarmonicsError {
 WELKIN_API HarmonicsError error_of(const SphericalHarmonics& approximation, const SphericalHarmonics& exact,
                                    std::span<const double> zonal);
 
+/// The most that degrees over those of `exact`, a map's harmonics, are of the relative RMSE, to which its
+/// square adds up: what the map's square integral has that they have not, by Parseval's theorem, times the
+/// larger of the last two factors of `zonal`, above which those that follow must not lie. Throws Error
+/// (mismatch) for channels that the map lacks, bad_request for too few factors.
+WELKIN_API double most_beyond(const Map& map, const SphericalHarmonics& exact, std::span<const double> zonal);
+
 /// Harmonics of a map up to a high degree, to compare with: those of `known`, which project gave, and the
 /// others. Of maps whose rows aren't latitudes these are found from a coarser level (make_pyramid) where they
 /// would take long, which leaves about a hundredth of what they add uncertain. Throws as project.

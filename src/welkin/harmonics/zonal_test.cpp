@@ -276,6 +276,28 @@ TEST(ErrorOf, IsThatOfTheSphereByQuadrature) {
   EXPECT_THROW(error_of(few, SphericalHarmonics(12, 1), zonal), Error);
 }
 
+// Of a map with waves of many degrees: above what degrees 13 … 60 are, and not much above where nearly all of
+// them lie close to the last.
+TEST(MostBeyond, BoundsWhatHigherDegreesAdd) {
+  const Map map = welkin::cases::rendered("latlong", 128, welkin::cases::waves(6, 12));
+  const SphericalHarmonics exact = project(map, 60);
+  for (const int degree : {4, 8, 12}) {
+    const SphericalHarmonics few = with_degree(exact, degree);
+    const std::vector<double> zonal = irradiance_factors(60);
+    const double beyond = error_of(few, exact, zonal).relative_rmse,
+                 most = most_beyond(map, few, irradiance_factors(degree));
+    EXPECT_GT(most, beyond) << degree;
+    EXPECT_LT(most, 30 * beyond) << degree;
+  }
+  EXPECT_LT(most_beyond(map, exact, irradiance_factors(60)), 1e-4);
+  const Map black(map.parameterization, 16, 8, 3);
+  EXPECT_EQ(most_beyond(black, project(black, 2), irradiance_factors(2)), 0);
+  EXPECT_THROW(most_beyond(map, exact, irradiance_factors(2)), Error);
+  SphericalHarmonics named = exact;
+  named.channel_names[0] = "depth";
+  EXPECT_THROW(most_beyond(map, named, irradiance_factors(60)), Error);
+}
+
 TEST(ReferenceOf, IsNearTheExactOneWhereItTakesACoarserLevel) {
   const Map map = welkin::cases::rendered("cube", 128, welkin::cases::waves(6, 12));
   const SphericalHarmonics known = project(map, 2), reference = reference_of(map, known, 60);
