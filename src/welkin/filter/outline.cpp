@@ -24,10 +24,12 @@ constexpr int kMostPositions = 1 << 17;
 constexpr double kFlat = 0.001;
 /// The same along a rim: no neighbour has what a chord cuts off.
 constexpr double kFlatRim = 0.0003;
-/// Of an edge, before what is left of it counts as a jump from one chart to the next.
-constexpr int kDepth = 13;
-/// The same where the parts left of an edge are less than a texel apart: it may grow as a root does.
-constexpr int kDepthWithinATexel = 36;
+/// Of chords deeper than kDepth, texels or of the chart: beside a pole, on a rim where directions hardly
+/// change with positions, rounding bends them.
+constexpr double kFlatDeep = 0.01, kFlatDeepOfChart = 3e-6;
+/// Of an edge, before what is left of it counts as a jump from one chart to the next, or to elsewhere in one:
+/// there it may grow as a root does, or pass a pole.
+constexpr int kDepth = 13, kDepthWithinAChart = 36;
 
 double line(int index, int count) {
   if (index == 0) return kAsideOfChart / count;
@@ -129,14 +131,16 @@ bool Outline::follow(int chart, const Position& from, const Position& to, bool o
   // Away from the chord, and uneven along it where that is more than a few texels long.
   const double away_x = middle.x - 0.5 * (from.x + to.x), away_y = middle.y - 0.5 * (from.y + to.y);
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const bool flat = std::max(std::fabs(away_x), std::fabs(away_y)) < (on_rim ? kFlatRim : kFlat) &&
+  const double tolerance = depth > kDepth ? std::max(kFlatDeep, kFlatDeepOfChart * std::max(width_, height_))
+                                          : (on_rim ? kFlatRim : kFlat);
+  const bool flat = std::max(std::fabs(away_x), std::fabs(away_y)) < tolerance &&
                     length < 0.2 * std::min(width_, height_) + 2;
   if (one_chart && flat) {
     runs.back().points.push_back({to.x, to.y});
     return true;
   }
   const double apart = std::max(std::fabs(to.x - from.x), std::fabs(to.y - from.y));
-  if (depth >= (one_chart && apart < 1 ? kDepthWithinATexel : kDepth)) {
+  if (depth >= (one_chart ? kDepthWithinAChart : kDepth)) {
     if (from.chart != to.chart || apart > 1e-3) runs.push_back({to.chart, {}});
     runs.back().points.push_back({to.x, to.y});
     return true;
@@ -208,21 +212,28 @@ bool Outline::clip_to_rim(int chart, std::vector<TargetPoint>& ring, bool& has_r
   }
   if (entries == 0) return valid[0];
   if (entries > 1) return false;
-  const auto aside = [](double at, double towards) {
-    return at + std::clamp(towards - at, -kAsideOfRim, kAsideOfRim);
-  };
-  const auto rim = [&](TargetPoint from, TargetPoint outside) {
-    TargetPoint inside = from;
+  const auto rim = [&](TargetPoint inside, TargetPoint outside) {
     for (int i = 0; i < 50; ++i) {
       const TargetPoint middle{0.5 * (inside.u + outside.u), 0.5 * (inside.v + outside.v)};
       (is_inside(p, chart, middle.u, middle.v) ? inside : outside) = middle;
     }
-    return TargetPoint{aside(inside.u, from.u), aside(inside.v, from.v)};
+    return inside;
   };
   std::vector<TargetPoint> clipped{rim(ring[(first + 1) % count], ring[first])};
   std::size_t i = (first + 1) % count;
   for (; valid[i]; i = (i + 1) % count) clipped.push_back(ring[i]);
   clipped.push_back(rim(clipped.back(), ring[i]));
+  // Towards the middle: along the edge it might be along the rim.
+  TargetPoint middle{0, 0};
+  for (const TargetPoint& point : clipped) {
+    middle.u += point.u / static_cast<double>(clipped.size());
+    middle.v += point.v / static_cast<double>(clipped.size());
+  }
+  for (TargetPoint* const end : {&clipped.front(), &clipped.back()}) {
+    const double right = middle.u - end->u, down = middle.v - end->v, away = std::hypot(right, down);
+    const double part = std::min(1.0, kAsideOfRim / away);
+    if (away > 0) *end = {end->u + part * right, end->v + part * down};
+  }
   ring = std::move(clipped);
   has_rim = true;
   return true;

@@ -305,5 +305,24 @@ TEST(ResampleEnergyTest, ASunOnARimKeepsItsLight) {
   }
 }
 
+// Of a sun in the middle of the rim of half a world: half of it, and of the rest.
+TEST(ResampleEnergyTest, HalfASunOnTheRimOfHalfAWorldKeepsItsLight) {
+  for (const double elevation : {90.0, 70.0, 20.0, 0.0}) {
+    const double angle = elevation * kPi / 180;
+    const Vec3d sun{std::cos(angle), std::sin(angle), 0};
+    Map source(make_map("latlong", 1).parameterization, 512, 256, 1);
+    render(source, [&](const Vec3d& d) { return angle_between(d, sun) < 0.5 * kPi / 180 ? 60000.0 : 0.3; });
+    for (const char* name :
+         {"fisheye-equidistant", "fisheye-equisolid", "fisheye-stereographic", "fisheye-orthographic"}) {
+      for (const int size : {100, 255}) {
+        Map target(sphere::AnyParameterization::make(name), size, size, 1);
+        resample(source, target, with(Filter::automatic));
+        EXPECT_NEAR(2 * light_of(target) / light_of(source), 1, 1e-3)
+            << name << ' ' << size << ' ' << elevation;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace welkin

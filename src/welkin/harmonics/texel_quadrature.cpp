@@ -51,7 +51,7 @@ TexelQuadrature::TexelQuadrature(const sphere::AnyParameterization& parameteriza
   limits_.side = kCellWaves / waves_;
   // A rim is as many texels long as a chart is wide: of small charts it has to be followed more closely.
   const int side = std::min(size.width, size.height);
-  limits_.rim_depth = 3 + std::clamp(static_cast<int>(std::ceil(std::log2(1024.0 / side))), 0, 5);
+  limits_.rim_depth = 1 + std::clamp(static_cast<int>(std::ceil(std::log2(1024.0 / side))), 0, 5);
 }
 
 void TexelQuadrature::corners(int chart, int y, std::vector<Vec3d>& directions) const {

@@ -124,7 +124,8 @@ WELKIN_API std::vector<std::string> default_channel_names(int count);
 /// Solid angle of the valid part of every texel of row `row` of a chart of width × height, sr, to `width`
 /// values at `out`: 0 for texels that are not valid anywhere. Their relative error is below 1e-5 but where a
 /// chart's density has a kink, as along the diagonals of octahedra: there 1e-4, and 1e-3 in charts of fewer
-/// than 32 texels. Throws Error (bad_request) for a row that the chart does not have.
+/// than 32 texels; and where it is infinite, on the rim of an orthographic fish-eye: 3e-3. Throws Error
+/// (bad_request) for a row that the chart does not have.
 WELKIN_API void texel_solid_angles(const sphere::AnyParameterization& parameterization, int width, int height,
                                    int chart, int row, float* out);
 

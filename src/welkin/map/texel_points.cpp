@@ -1,11 +1,9 @@
 #include "welkin/map/texel_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "welkin/base/error.h"
-#include "welkin/math/gauss_legendre.h"
 
 namespace welkin {
 namespace {
@@ -14,146 +12,6 @@ using sphere::AnyParameterization;
 
 /// When subdividing a cell changes its density by more than this, there is a kink or the cell is large.
 constexpr float kPlain = 1e-5f;
-
-/// How often a cell with a kink is subdivided at most, and a large one.
-constexpr int kKinkDepth = 7, kLargeDepth = 12;
-
-/// Subdivides a cell.
-class CellPoints {
- public:
-  CellPoints(const AnyParameterization& p, const CellLimits& limits, std::vector<TexelPoint>& points)
-      : p_(p), full_(p.full_charts()), limits_(limits), points_(points) {}
-
-  void add(const ChartCell& cell, int depth) {
-    if (!full_) {
-      const Corners corners(p_, cell);
-      const int valid = corners.count() + valid_points(cell);
-      if (valid == 0 && depth >= std::min(1, limits_.rim_depth)) return;
-      if (valid < 8) {
-        if (depth < limits_.rim_depth || is_large(cell, depth, 0.25)) return add_quarters(cell, depth);
-        return corners.differ_along_u() ? add_strips<true>(cell) : add_strips<false>(cell);
-      }
-    }
-    if (is_large(cell, depth, 1)) return add_quarters(cell, depth);
-    if (depth < kKinkDepth) {
-      double finer = 0;
-      for (int k = 0; k < 4; ++k) finer += solid_angle(cell.part(k % 2, 2, k / 2, 2));
-      if (std::fabs(finer - solid_angle(cell)) > limits_.solid_angle) return add_quarters(cell, depth);
-    }
-    if (limits_.side > 4) return append_gauss_points(p_, cell, points_);
-    // A small solid angle can be long, as at the rim of a mirror ball.
-    const Sides sides = sides_of(cell);
-    const double longer = std::max(sides.along_u, sides.along_v);
-    if (longer > 12 * limits_.side && depth < kLargeDepth) return add_quarters(cell, depth);
-    if (longer <= limits_.side) return append_gauss_points(p_, cell, points_);
-    return sides.along_u > sides.along_v ? add_strips<true>(cell) : add_strips<false>(cell);
-  }
-
- private:
-  /// Whether the corners of a cell are valid.
-  struct Corners {
-    Corners(const AnyParameterization& p, const ChartCell& cell) {
-      for (int k = 0; k < 4; ++k) {
-        valid[static_cast<std::size_t>(k)] =
-            p.valid(cell.chart, cell.u + k % 2 * cell.width, cell.v + k / 2 * cell.height) ? 1 : 0;
-      }
-    }
-    int count() const { return valid[0] + valid[1] + valid[2] + valid[3]; }
-    /// The rim is crossed by going along u rather than along v.
-    bool differ_along_u() const {
-      const int along_u = std::abs(valid[0] - valid[1]) + std::abs(valid[2] - valid[3]);
-      const int along_v = std::abs(valid[0] - valid[2]) + std::abs(valid[1] - valid[3]);
-      return along_u >= along_v;
-    }
-    std::array<int, 4> valid;
-  };
-
-  int valid_points(const ChartCell& cell) const {
-    int count = 0;
-    for (int k = 0; k < 4; ++k) {
-      const double u = cell.u + kGauss[k % 2] * cell.width, v = cell.v + kGauss[k / 2] * cell.height;
-      count += p_.valid(cell.chart, u, v) ? 1 : 0;
-    }
-    return count;
-  }
-
-  /// By 2×2 points, those that are valid.
-  double solid_angle(const ChartCell& cell) const {
-    double sum = 0;
-    for (int k = 0; k < 4; ++k) {
-      const double u = cell.u + kGauss[k % 2] * cell.width, v = cell.v + kGauss[k / 2] * cell.height;
-      if (full_ || p_.valid(cell.chart, u, v)) sum += p_.solid_angle_density(cell.chart, u, v);
-    }
-    return sum * cell.width * cell.height / 4;
-  }
-
-  /// Beside `part` of the square of the side.
-  bool is_large(const ChartCell& cell, int depth, double part) const {
-    return depth < kLargeDepth && solid_angle(cell) > part * limits_.side * limits_.side;
-  }
-
-  /// Twice the longer half of each.
-  struct Sides {
-    double along_u, along_v;
-  };
-  Sides sides_of(const ChartCell& cell) const {
-    const auto at = [&](double across, double down) {
-      return p_.to_sphere(cell.chart, cell.u + across * cell.width, cell.v + down * cell.height);
-    };
-    const Vec3d middle = at(0.5, 0.5);
-    return {2 * std::max(length(at(0, 0.5) - middle), length(at(1, 0.5) - middle)),
-            2 * std::max(length(at(0.5, 0) - middle), length(at(0.5, 1) - middle))};
-  }
-
-  void add_quarters(const ChartCell& cell, int depth) {
-    for (int k = 0; k < 4; ++k) add(cell.part(k % 2, 2, k / 2, 2), depth + 1);
-  }
-
-  /// Four strips along u, or along v, each from rim to rim or to the cell's ends.
-  template <bool kAlongU>
-  void add_strips(const ChartCell& cell) {
-    static const QuadratureRule rule = gauss_legendre(4);
-    for (std::size_t strip = 0; strip < rule.nodes.size(); ++strip) {
-      const double across = 0.5 + 0.5 * rule.nodes[strip];
-      const auto u = [&](double along) { return cell.u + (kAlongU ? along : across) * cell.width; };
-      const auto v = [&](double along) { return cell.v + (kAlongU ? across : along) * cell.height; };
-      const auto valid = [&](double along) { return p_.valid(cell.chart, u(along), v(along)); };
-      const auto rim = [&](double inside, double outside) {
-        for (int i = 0; i < 16; ++i) {
-          const double middle = (inside + outside) / 2;
-          (valid(middle) ? inside : outside) = middle;
-        }
-        return inside;
-      };
-      double inside = -1;
-      for (const double along : {0.0, 1.0, 0.5, 0.25, 0.75}) {
-        if (inside < 0 && valid(along)) inside = along;
-      }
-      if (inside < 0) continue;
-      const double from = valid(0) ? 0 : rim(inside, 0), to = valid(1) ? 1 : rim(inside, 1);
-      const auto direction = [&](double along) { return p_.to_sphere(cell.chart, u(along), v(along)); };
-      const double middle = (from + to) / 2;
-      // From the middle to either end. The density may be infinite on the rim, as 1/√distance: with the
-      // distance a square it is smooth.
-      for (const double end : {from, to}) {
-        const double share = (middle - from) * cell.width * cell.height * rule.weights[strip] / 2;
-        const int panels = 1 + static_cast<int>(length(direction(end) - direction(middle)) / limits_.side);
-        for (int k = 0; k < 4 * panels; ++k) {
-          const std::size_t i = static_cast<std::size_t>(k % 4);
-          const double root = (k / 4 + 0.5 + 0.5 * rule.nodes[i]) / panels;
-          const double along = end + (middle - end) * root * root;
-          const double density = p_.solid_angle_density(cell.chart, u(along), v(along));
-          points_.push_back({direction(along), density * share * rule.weights[i] * root / panels});
-        }
-      }
-    }
-  }
-
-  const AnyParameterization& p_;
-  bool full_;
-  CellLimits limits_;
-  std::vector<TexelPoint>& points_;
-};
 
 /// Gauss's rule of 2×2 points suffices where it differs from the value at the centre by less than this share:
 /// along a kink of the density its error is as large as that.
@@ -192,27 +50,9 @@ std::size_t test_row(const AnyParameterization& p, Batch batch, int chart, float
 
 }  // namespace
 
-ChartCell ChartCell::part(int x, int columns, int y, int rows) const {
-  return {chart, u + width * x / columns, v + height * y / rows, width / columns, height / rows};
-}
-
 ChartCell texel_cell(ChartSize size, int chart, int x, int y) {
   return {chart, static_cast<double>(x) / size.width, static_cast<double>(y) / size.height, 1.0 / size.width,
           1.0 / size.height};
-}
-
-void append_gauss_points(const AnyParameterization& p, const ChartCell& cell,
-                         std::vector<TexelPoint>& points) {
-  const double area = cell.width * cell.height / 4;
-  for (int k = 0; k < 4; ++k) {
-    const double u = cell.u + kGauss[k % 2] * cell.width, v = cell.v + kGauss[k / 2] * cell.height;
-    points.push_back({p.to_sphere(cell.chart, u, v), p.solid_angle_density(cell.chart, u, v) * area});
-  }
-}
-
-void append_points(const AnyParameterization& p, const ChartCell& cell, const CellLimits& limits,
-                   std::vector<TexelPoint>& points) {
-  CellPoints(p, limits, points).add(cell, 0);
 }
 
 double mean_texel(const AnyParameterization& p, ChartSize size) {

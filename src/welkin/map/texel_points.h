@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "welkin/map/cell_points.h"
 #include "welkin/map/map.h"
 
 /// The area of a texel as quadrature points. Gauss's rule of 2×2 points suffices for most texels; not for
@@ -9,42 +10,8 @@
 /// the diagonals of an octahedron, nor for those that cover a large part of the sphere.
 namespace welkin {
 
-/// Gauss's two points in 0 … 1: ½ ∓ 1/√12.
-inline constexpr double kGauss[2] = {0.21132486540518713, 0.78867513459481287};
-
-/// A rectangle of a chart, in its u and v.
-struct ChartCell {
-  int chart;
-  double u, v;  ///< the smallest
-  double width, height;
-
-  /// Part `x` of `columns`, `y` of `rows`.
-  ChartCell part(int x, int columns, int y, int rows) const;
-};
-
 /// A texel of charts of that size.
 ChartCell texel_cell(ChartSize size, int chart, int x, int y);
-
-struct TexelPoint {
-  Vec3d direction;
-  double solid_angle;
-};
-
-/// Gauss's rule of 2×2 points, of a cell that lies within the chart's valid positions.
-void append_gauss_points(const sphere::AnyParameterization& p, const ChartCell& cell,
-                         std::vector<TexelPoint>& points);
-
-/// Limits of subdivision.
-struct CellLimits {
-  double solid_angle;  ///< sr: until subdividing changes it by less
-  double side = 10;    ///< radians: until points are no farther apart
-  int rim_depth = 3;   ///< subdivisions at a rim, before it is followed in strips
-};
-
-/// Points of the valid part of any cell, subdivided to these limits; none when no part is valid. At a rim the
-/// solid angle is too small by about 1e-4 of a texel's, by 6e-4 of that of a quarter of a disc.
-void append_points(const sphere::AnyParameterization& p, const ChartCell& cell, const CellLimits& limits,
-                   std::vector<TexelPoint>& points);
 
 /// A side of a texel of average solid angle, radians.
 double mean_texel(const sphere::AnyParameterization& p, ChartSize size);
