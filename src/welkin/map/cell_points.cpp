@@ -14,6 +14,10 @@ using sphere::AnyParameterization;
 /// How often a cell with a kink is subdivided at most, and a large one.
 constexpr int kKinkDepth = 7, kLargeDepth = 12;
 
+/// Cells at a rim over which the density varies too much for strips, sr, and how often they are subdivided.
+constexpr double kWide = 0.03;
+constexpr int kWideDepth = 3;
+
 /// Subdivides a cell.
 class CellPoints {
  public:
@@ -26,7 +30,9 @@ class CellPoints {
       const int valid = corners.count() + valid_points(cell);
       if (valid == 0 && depth >= std::min(1, limits_.rim_depth)) return;
       if (valid < 8) {
-        if (depth < limits_.rim_depth || is_large(cell, depth, 0.25)) return add_quarters(cell, depth);
+        const bool wide = depth < kWideDepth && solid_angle(cell) > kWide;
+        if (depth < limits_.rim_depth || wide || is_large(cell, depth, 0.25))
+          return add_quarters(cell, depth);
         return is_crossed_along_u(cell, corners) ? add_strips<true>(cell) : add_strips<false>(cell);
       }
     }
